@@ -1,0 +1,40 @@
+#include <ceres_ed/util/parallel.h>
+
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+TEST(ParallelFor, VisitsEveryIndexOnceAtAnyThreadCount) {
+  for (const int num_threads : {-1, 0, 1, 2, 3, 7, 100}) {
+    for (const int count : {1, 2, 5, 97}) {
+      std::vector<int> visits(count, 0);
+      ParallelFor(num_threads, count, [&](int begin, int end) {
+        for (int i = begin; i < end; ++i) ++visits[i];
+      });
+      EXPECT_EQ(visits, std::vector<int>(count, 1)) << num_threads << " threads, " << count;
+    }
+  }
+}
+
+TEST(ParallelFor, RunsInlineOnOneThread) {
+  std::thread::id worker;
+  ParallelFor(1, 10, [&](int begin, int end) {
+    EXPECT_EQ(begin, 0);
+    EXPECT_EQ(end, 10);
+    worker = std::this_thread::get_id();
+  });
+  EXPECT_EQ(worker, std::this_thread::get_id());
+}
+
+TEST(ParallelFor, CallsNothingForAnEmptyRange) {
+  int calls = 0;
+  ParallelFor(4, 0, [&](int, int) { ++calls; });
+  EXPECT_EQ(calls, 0);
+}
+
+}  // namespace
+}  // namespace ceres_ed
