@@ -1,0 +1,50 @@
+// The parameter layout of a node and of the camera: the one place that knows it.
+#ifndef CERES_ED_COST_FUNCTIONS_NODE_PARAMETERS_H_
+#define CERES_ED_COST_FUNCTIONS_NODE_PARAMETERS_H_
+
+#include <algorithm>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// A node is one parameter block of 12 doubles: the affine matrix A_j column by column (c1 c2 c3),
+// then the translation t_j. At rest A_j = I and t_j = 0.
+inline constexpr int kNodeSize = 12;
+inline constexpr int kNodeTranslationOffset = 9;
+
+// The camera is two parameter blocks: R_c as a unit quaternion in Eigen's order (x y z w), to be
+// put on ceres::EigenQuaternionManifold, and T_c. Both take map points into the camera frame.
+inline constexpr int kRotationSize = 4;
+inline constexpr int kTranslationSize = 3;
+
+// More nodes a point than anyone has use for; bounds the arrays of the warp's hot path.
+inline constexpr int kMaxBoundNodes = 8;
+
+// A_j of a node block, as a 3 x 3 view.
+template <typename T>
+Eigen::Map<const Eigen::Matrix<T, 3, 3>> NodeAffine(const T* node) {
+  return Eigen::Map<const Eigen::Matrix<T, 3, 3>>(node);
+}
+inline Eigen::Map<Eigen::Matrix3d> MutableNodeAffine(double* node) {
+  return Eigen::Map<Eigen::Matrix3d>(node);
+}
+
+// t_j of a node block, as a 3-vector view, in map units.
+template <typename T>
+Eigen::Map<const Eigen::Matrix<T, 3, 1>> NodeTranslation(const T* node) {
+  return Eigen::Map<const Eigen::Matrix<T, 3, 1>>(node + kNodeTranslationOffset);
+}
+inline Eigen::Map<Eigen::Vector3d> MutableNodeTranslation(double* node) {
+  return Eigen::Map<Eigen::Vector3d>(node + kNodeTranslationOffset);
+}
+
+// Writes A = I, t = 0 into a node block.
+inline void SetNodeToRest(double* node) {
+  std::fill_n(node, kNodeSize, 0.0);
+  node[0] = node[4] = node[8] = 1.0;
+}
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_COST_FUNCTIONS_NODE_PARAMETERS_H_
