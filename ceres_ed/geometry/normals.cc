@@ -1,0 +1,185 @@
+#include "ceres_ed/geometry/normals.h"
+
+#include <ceres_ed/geometry/kd_tree.h>
+#include <ceres_ed/geometry/topology.h>
+#include <ceres_ed/util/parallel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+// Neighbours spread over a plane when the second spread is at least this fraction of the first
+// (variances); below it they lie on a line.
+constexpr double kMinPlanarity = 1e-6;
+
+struct NeighborEdge {
+  // 1 - |n_a . n_b|.
+  double cost;
+  int a;
+  int b;
+
+  bool operator<(const NeighborEdge& other) const {
+    if (cost != other.cost) return cost < other.cost;
+    return a != other.a ? a < other.a : b < other.b;
+  }
+};
+
+class DisjointSets {
+ public:
+  explicit DisjointSets(int size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
+  int Find(int i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  // False when both were in one set already.
+  bool Join(int a, int b) {
+    a = Find(a);
+    b = Find(b);
+    if (a == b) return false;
+    parent_[std::max(a, b)] = std::min(a, b);
+    return true;
+  }
+
+ private:
+  std::vector<int> parent_;
+};
+
+Eigen::Vector3d PlaneNormal(const std::vector<Eigen::Vector3d>& points,
+                            const Neighbor* neighbors,
+                            int count) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (int i = 0; i < count; ++i) mean += points[neighbors[i].index] / count;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d offset = points[neighbors[i].index] - mean;
+    covariance += offset * offset.transpose();
+  }
+  const double trace = covariance.trace();
+  if (count < 3 || !(trace > 0.0)) return Eigen::Vector3d::Zero();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance / trace);
+  if (eigen.eigenvalues()[1] < kMinPlanarity * eigen.eigenvalues()[2]) {
+    return Eigen::Vector3d::Zero();
+  }
+  return eigen.eigenvectors().col(0);
+}
+
+// The edges of the minimum spanning forest, as links both ways.
+std::vector<std::vector<int>> SpanningForest(const std::vector<Eigen::Vector3d>& normals,
+                                             const std::vector<Neighbor>& neighbors,
+                                             const std::vector<int>& counts,
+                                             int k) {
+  const int num_points = static_cast<int>(normals.size());
+  std::vector<NeighborEdge> edges;
+  edges.reserve(neighbors.size());
+  for (int a = 0; a < num_points; ++a) {
+    for (int i = 0; i < counts[a]; ++i) {
+      const int b = neighbors[static_cast<std::size_t>(a) * k + i].index;
+      if (a == b) continue;
+      edges.push_back({1.0 - std::abs(normals[a].dot(normals[b])), std::min(a, b), std::max(a, b)});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  DisjointSets sets(num_points);
+  std::vector<std::vector<int>> links(num_points);
+  for (const NeighborEdge& edge : edges) {
+    if (!sets.Join(edge.a, edge.b)) continue;
+    links[edge.a].push_back(edge.b);
+    links[edge.b].push_back(edge.a);
+  }
+  return links;
+}
+
+void OrientNormals(const std::vector<Eigen::Vector3d>& points,
+                   const std::vector<std::vector<int>>& forest,
+                   std::vector<Eigen::Vector3d>* normals) {
+  const int num_points = static_cast<int>(points.size());
+  std::vector<char> visited(num_points, 0);
+  for (int start = 0; start < num_points; ++start) {
+    if (visited[start]) continue;
+    std::vector<int> part = {start};
+    visited[start] = 1;
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      const int p = part[i];
+      centroid += points[p];
+      for (const int q : forest[p]) {
+        if (visited[q]) continue;
+        visited[q] = 1;
+        if ((*normals)[p].dot((*normals)[q]) < 0.0) (*normals)[q] = -(*normals)[q];
+        part.push_back(q);
+      }
+    }
+    centroid /= static_cast<double>(part.size());
+    double outward = 0.0;
+    for (const int p : part) outward += (points[p] - centroid).dot((*normals)[p]);
+    if (outward >= 0.0) continue;
+    for (const int p : part) (*normals)[p] = -(*normals)[p];
+  }
+}
+
+}  // namespace
+
+std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud) {
+  const std::vector<int> representative = WeldPoints(cloud.points);
+  std::vector<Eigen::Vector3d> normals(cloud.size(), Eigen::Vector3d::Zero());
+  for (const std::array<int, 3>& triangle : cloud.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const Eigen::Vector3d& a = cloud.points[triangle[i]];
+      const Eigen::Vector3d ab = cloud.points[triangle[(i + 1) % 3]] - a;
+      const Eigen::Vector3d ac = cloud.points[triangle[(i + 2) % 3]] - a;
+      const Eigen::Vector3d cross = ab.cross(ac);
+      const double norm = cross.norm();
+      if (!(norm > 0.0)) continue;
+      const double angle = std::atan2(norm, ab.dot(ac));
+      normals[representative[triangle[i]]] += angle / norm * cross;
+    }
+  }
+  for (std::size_t p = 0; p < normals.size(); ++p) {
+    if (representative[p] != static_cast<int>(p)) {
+      // The representative is lower, so it is done.
+      normals[p] = normals[representative[p]];
+      continue;
+    }
+    const double norm = normals[p].norm();
+    if (norm > 0.0) normals[p] /= norm;
+  }
+  return normals;
+}
+
+std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>& points,
+                                             int neighbors,
+                                             int num_threads) {
+  CHECK_GE(neighbors, 3);
+  const KdTree tree(points);
+  std::vector<Neighbor> nearest(points.size() * neighbors);
+  std::vector<int> counts(points.size(), 0);
+  std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
+  ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      Neighbor* row = &nearest[static_cast<std::size_t>(p) * neighbors];
+      counts[p] = tree.KNearest(points[p], neighbors, row);
+      normals[p] = PlaneNormal(points, row, counts[p]);
+    }
+  });
+  OrientNormals(points, SpanningForest(normals, nearest, counts, neighbors), &normals);
+  return normals;
+}
+
+void EnsureNormals(PointCloud* cloud, int num_threads) {
+  if (cloud->HasNormals()) return;
+  cloud->normals_oriented = cloud->HasTriangles();
+  cloud->normals = cloud->HasTriangles()
+                       ? ComputeVertexNormals(*cloud)
+                       : EstimateNormals(cloud->points, kNormalNeighbors, num_threads);
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,153 @@
+#include "ceres_ed/geometry/surface_distance.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+struct QueueEntry {
+  double distance;
+  int seed;
+  int point;
+};
+
+// Puts the nearest entry on top; the seed breaks ties in the order of the labels of a point.
+struct Farther {
+  bool operator()(const QueueEntry& a, const QueueEntry& b) const {
+    if (a.distance != b.distance) return a.distance > b.distance;
+    return a.seed > b.seed;
+  }
+};
+
+// Dijkstra with up to k labels (seed, distance) a point, kept sorted in the result's own arrays.
+// The labels of a point leave the queue in their order, so the settled ones are a prefix.
+class MultiSeedSearch {
+ public:
+  MultiSeedSearch(const SurfaceTopology& topology, int k) : topology_(topology), k_(k) {
+    const std::size_t num_points = topology.representative.size();
+    result_.k = k;
+    result_.seeds.assign(num_points * k, -1);
+    result_.distances.assign(num_points * k, kInfinity);
+    num_settled_.assign(num_points, 0);
+    queue_.reserve(num_points);
+  }
+
+  // Offers a way from `seed` to `point`.
+  void Relax(int point, int seed, double distance) {
+    int* seeds = &result_.seeds[static_cast<std::size_t>(point) * k_];
+    double* distances = &result_.distances[static_cast<std::size_t>(point) * k_];
+    const auto before = [&](int i) {
+      return distance < distances[i] || (distance == distances[i] && seed < seeds[i]);
+    };
+    if (distances[k_ - 1] <= distance && !before(k_ - 1)) return;
+    // The new label takes the place of an older one of the same seed, else of the last.
+    int place = 0;
+    while (place < k_ - 1 && seeds[place] != seed) ++place;
+    if (seeds[place] == seed && distances[place] <= distance) return;
+    for (; place > 0 && before(place - 1); --place) {
+      seeds[place] = seeds[place - 1];
+      distances[place] = distances[place - 1];
+    }
+    seeds[place] = seed;
+    distances[place] = distance;
+    queue_.push_back({distance, seed, point});
+    std::push_heap(queue_.begin(), queue_.end(), Farther());
+  }
+
+  void Run() {
+    while (!queue_.empty()) {
+      std::pop_heap(queue_.begin(), queue_.end(), Farther());
+      const QueueEntry entry = queue_.back();
+      queue_.pop_back();
+      int& settled = num_settled_[entry.point];
+      const std::size_t label = static_cast<std::size_t>(entry.point) * k_ + settled;
+      if (settled == k_ || result_.seeds[label] != entry.seed ||
+          result_.distances[label] != entry.distance) {
+        continue;
+      }
+      ++settled;
+      for (const SurfaceLink& link : topology_.Paths(entry.point)) {
+        Relax(link.to, entry.seed, entry.distance + link.length);
+      }
+    }
+  }
+
+  NearestSeeds TakeResult() {
+    for (int p = 0; p < topology_.num_points(); ++p) {
+      const std::size_t from = static_cast<std::size_t>(topology_.representative[p]) * k_;
+      const std::size_t to = static_cast<std::size_t>(p) * k_;
+      if (from == to) continue;
+      std::copy_n(result_.seeds.begin() + from, k_, result_.seeds.begin() + to);
+      std::copy_n(result_.distances.begin() + from, k_, result_.distances.begin() + to);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  const SurfaceTopology& topology_;
+  const int k_;
+  NearestSeeds result_;
+  std::vector<int> num_settled_;
+  std::vector<QueueEntry> queue_;
+};
+
+}  // namespace
+
+int NearestSeeds::Count(int point) const {
+  const int* first = SeedsOf(point);
+  return static_cast<int>(std::find(first, first + k, -1) - first);
+}
+
+NearestSeeds NearestSeedsAlongSurface(const SurfaceTopology& topology,
+                                      const std::vector<int>& seed_points,
+                                      int k,
+                                      const std::vector<double>& offsets) {
+  CHECK_GE(k, 1);
+  CHECK(offsets.empty() || offsets.size() == seed_points.size())
+      << offsets.size() << " offsets of " << seed_points.size() << " seeds";
+  MultiSeedSearch search(topology, k);
+  for (std::size_t seed = 0; seed < seed_points.size(); ++seed) {
+    const int point = seed_points[seed];
+    CHECK(point >= 0 && point < topology.num_points()) << "seed at point " << point;
+    const double offset = offsets.empty() ? 0.0 : offsets[seed];
+    CHECK_GE(offset, 0.0) << "offset of seed " << seed;
+    search.Relax(topology.representative[point], static_cast<int>(seed), offset);
+  }
+  search.Run();
+  return search.TakeResult();
+}
+
+std::vector<double> AlongSurfaceDistances(const SurfaceTopology& topology,
+                                          int seed_point,
+                                          double max_distance) {
+  CHECK(seed_point >= 0 && seed_point < topology.num_points()) << "seed at point " << seed_point;
+  std::vector<double> distances(topology.num_points(), kInfinity);
+  if (!(max_distance >= 0.0)) return distances;
+  const int start = topology.representative[seed_point];
+  distances[start] = 0.0;
+  std::vector<QueueEntry> queue = {{0.0, 0, start}};
+  while (!queue.empty()) {
+    std::pop_heap(queue.begin(), queue.end(), Farther());
+    const QueueEntry entry = queue.back();
+    queue.pop_back();
+    if (entry.distance > distances[entry.point]) continue;
+    for (const SurfaceLink& link : topology.Paths(entry.point)) {
+      const double distance = entry.distance + link.length;
+      if (distance > max_distance || distance >= distances[link.to]) continue;
+      distances[link.to] = distance;
+      queue.push_back({distance, 0, link.to});
+      std::push_heap(queue.begin(), queue.end(), Farther());
+    }
+  }
+  for (int p = 0; p < topology.num_points(); ++p) {
+    distances[p] = distances[topology.representative[p]];
+  }
+  return distances;
+}
+
+}  // namespace ceres_ed

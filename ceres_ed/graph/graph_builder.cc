@@ -1,0 +1,242 @@
+#include "ceres_ed/graph/graph_builder.h"
+
+#include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/geometry/sampling.h>
+#include <ceres_ed/graph/edges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <sstream>
+#include <utility>
+
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+// An automatic spacing below this many mean edge lengths would put a node on every other point.
+constexpr double kMinEdgesPerSpacing = 2.0;
+// The search for target_nodes ends when it is this close, or after this many samplings.
+constexpr double kTargetTolerance = 0.05;
+constexpr int kMaxSamplings = 8;
+
+template <typename... Parts>
+std::string Sentence(const Parts&... parts) {
+  std::ostringstream stream;
+  (stream << ... << parts);
+  return stream.str();
+}
+
+// What the options mean for one cloud.
+struct SamplingPlan {
+  const PointCloud& cloud;
+  const SurfaceTopology& topology;
+  const GraphOptions& options;
+  // What is really used: kSurface only where the surface can carry it.
+  DistanceRule distance;
+};
+
+std::vector<int> SampleWithSpacing(const SamplingPlan& plan, double spacing) {
+  FarthestPointOptions farthest;
+  farthest.min_spacing = spacing;
+  const bool uniform = plan.options.sampling == SamplingRule::kUniform;
+  const int min_points = plan.options.min_component_points;
+  if (plan.distance == DistanceRule::kSurface) {
+    return uniform ? UniformDownsampleAlongSurface(plan.topology, spacing, min_points)
+                   : FarthestPointSampleAlongSurface(plan.topology, farthest, min_points);
+  }
+  return uniform ? UniformDownsample(plan.cloud.points, spacing)
+                 : FarthestPointSample(plan.cloud.points, farthest);
+}
+
+std::vector<int> SampleWithCount(const SamplingPlan& plan, double* spacing) {
+  const int target = plan.options.target_nodes;
+  if (plan.options.sampling == SamplingRule::kFarthest) {
+    *spacing = 0.0;
+    FarthestPointOptions farthest;
+    farthest.max_count = target;
+    return plan.distance == DistanceRule::kSurface
+               ? FarthestPointSampleAlongSurface(
+                     plan.topology, farthest, plan.options.min_component_points)
+               : FarthestPointSample(plan.cloud.points, farthest);
+  }
+  // Nodes go with the square of the spacing on a surface: that makes a step of the search, and the
+  // brackets keep it from going in circles.
+  double low = 0.0;
+  double high = 2.0 * Diagonal(plan.cloud.points);
+  double trial = 0.5 * high / std::sqrt(static_cast<double>(target) + 1.0);
+  std::vector<int> best;
+  const auto error = [target](const std::vector<int>& samples) {
+    return std::abs(std::log(static_cast<double>(samples.size()) / target));
+  };
+  for (int i = 0; i < kMaxSamplings; ++i) {
+    std::vector<int> samples = SampleWithSpacing(plan, trial);
+    const double ratio = static_cast<double>(samples.size()) / target;
+    (ratio > 1.0 ? low : high) = trial;
+    if (best.empty() || error(samples) < error(best)) {
+      best = std::move(samples);
+      *spacing = trial;
+    }
+    if (error(best) <= kTargetTolerance) break;
+    const double step = trial * std::sqrt(ratio);
+    trial = step > low && step < high ? step : 0.5 * (low + high);
+  }
+  return best;
+}
+
+double AutomaticSpacing(const SamplingPlan& plan) {
+  return std::max(plan.options.auto_spacing * Diagonal(plan.cloud.points),
+                  kMinEdgesPerSpacing * MeanEdgeLength(plan.topology));
+}
+
+// The distance to use. A mesh that is mostly crumbs (corners that nearly meet, but not to the bit)
+// has no surface worth walking.
+DistanceRule ChooseDistance(const PointCloud& cloud,
+                            const SurfaceTopology& topology,
+                            const GraphOptions& options,
+                            std::vector<std::string>* warnings) {
+  if (options.distance == DistanceRule::kEuclidean || !topology.HasSurface()) {
+    return DistanceRule::kEuclidean;
+  }
+  std::size_t covered = 0;
+  for (std::size_t p = 0; p < cloud.size(); ++p) {
+    covered += topology.component_sizes[topology.component[p]] >= options.min_component_points;
+  }
+  if (2 * covered >= cloud.size()) return DistanceRule::kSurface;
+  warnings->push_back(Sentence("only ",
+                               covered,
+                               " of ",
+                               cloud.size(),
+                               " points are in connected parts of ",
+                               options.min_component_points,
+                               " or more, so distances are straight lines, not along the surface"));
+  return DistanceRule::kEuclidean;
+}
+
+Status CheckFinite(const PointCloud& cloud) {
+  for (std::size_t p = 0; p < cloud.size(); ++p) {
+    if (!cloud.points[p].allFinite()) return Status::Error(Sentence("point ", p, " is not finite"));
+  }
+  return Status::Ok();
+}
+
+Status CheckInput(const PointCloud& cloud,
+                  const SurfaceTopology& topology,
+                  const GraphOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) return Status::Error("bad graph options: " + error);
+  if (cloud.empty()) return Status::Error("cannot build a graph on a cloud without points");
+  CHECK_EQ(cloud.size(), topology.representative.size()) << "the topology is of another cloud";
+  const Status finite = CheckFinite(cloud);
+  if (!finite.ok()) return finite;
+  const int num_positions = static_cast<int>(topology.walk_order.size());
+  if (num_positions < 2) {
+    return Status::Error(Sentence(
+        "cannot build a graph on a cloud whose ", cloud.size(), " points are all at one place"));
+  }
+  if (options.node_spacing == 0.0 && options.target_nodes > num_positions) {
+    return Status::Error(Sentence("target_nodes is ",
+                                  options.target_nodes,
+                                  ", but the cloud has only ",
+                                  num_positions,
+                                  " different points"));
+  }
+  return Status::Ok();
+}
+
+void WarnAboutNodes(const SamplingPlan& plan, BuiltGraph* built) {
+  const int num_nodes = static_cast<int>(built->node_points.size());
+  if (num_nodes <= plan.options.neighbors) {
+    built->warnings.push_back(Sentence("the graph has only ",
+                                       num_nodes,
+                                       num_nodes == 1 ? " node" : " nodes",
+                                       " for ",
+                                       plan.options.neighbors,
+                                       " neighbours a point: a smaller node_spacing gives more"));
+  }
+  if (plan.distance != DistanceRule::kSurface) return;
+  const int parts = static_cast<int>(std::count_if(
+      plan.topology.component_sizes.begin(), plan.topology.component_sizes.end(), [&](int size) {
+        return size >= plan.options.min_component_points;
+      }));
+  if (num_nodes < parts) {
+    built->warnings.push_back(
+        Sentence(num_nodes,
+                 " nodes are too few for the ",
+                 parts,
+                 " connected parts of the surface: some follow the nodes of others"));
+  }
+}
+
+}  // namespace
+
+bool GraphOptions::IsValid(std::string* error) const {
+  const auto fail = [error](const char* name, double value, const char* expected) {
+    *error = Sentence(name, " is ", value, ", expected ", expected);
+    return false;
+  };
+  if (!(node_spacing >= 0.0) || !std::isfinite(node_spacing)) {
+    return fail("node_spacing", node_spacing, "0 (automatic) or a length");
+  }
+  if (target_nodes < 0) return fail("target_nodes", target_nodes, "0 (automatic) or a count");
+  if (!(auto_spacing > 0.0) || !std::isfinite(auto_spacing)) {
+    return fail("auto_spacing", auto_spacing, "a fraction above 0");
+  }
+  if (edges_per_node < 1) return fail("edges_per_node", edges_per_node, "at least 1");
+  if (min_component_points < 1) {
+    return fail("min_component_points", min_component_points, "at least 1");
+  }
+  if (edges_per_joint < 1) return fail("edges_per_joint", edges_per_joint, "at least 1");
+  BindingOptions binding;
+  binding.neighbors = neighbors;
+  binding.num_threads = num_threads;
+  return binding.IsValid(error);
+}
+
+StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
+                                const SurfaceTopology& topology,
+                                const GraphOptions& options) {
+  const Status status = CheckInput(cloud, topology, options);
+  if (!status.ok()) return status;
+  BuiltGraph built;
+  const SamplingPlan plan{
+      cloud, topology, options, ChooseDistance(cloud, topology, options, &built.warnings)};
+  if (options.node_spacing == 0.0 && options.target_nodes > 0) {
+    built.node_points = SampleWithCount(plan, &built.node_spacing);
+  } else {
+    built.node_spacing = options.node_spacing > 0.0 ? options.node_spacing : AutomaticSpacing(plan);
+    built.node_points = SampleWithSpacing(plan, built.node_spacing);
+  }
+  WarnAboutNodes(plan, &built);
+
+  built.binding = {options.neighbors, plan.distance, options.num_threads};
+  built.skinning = BindPoints(cloud, topology, built.node_points, built.binding);
+
+  for (const int point : built.node_points) built.graph.AddNode(cloud.points[point]);
+  const std::vector<GraphEdge> edges =
+      options.edges == EdgeRule::kSharedInfluence
+          ? SharedInfluenceEdges(built.skinning, built.graph.num_nodes(), options.edges_per_node)
+          : NearestNodeEdges(
+                cloud, topology, built.node_points, options.edges_per_node, plan.distance);
+  for (const GraphEdge& edge : edges) built.graph.AddEdge(edge);
+
+  const std::vector<int> pieces = ConnectedPieces(built.graph);
+  built.num_pieces = 1 + *std::max_element(pieces.begin(), pieces.end());
+  if (built.num_pieces == 1) return built;
+  if (options.join_pieces) JoinPieces(&built.graph, options.edges_per_joint);
+  built.warnings.push_back(Sentence("the graph is in ",
+                                    built.num_pieces,
+                                    " pieces",
+                                    options.join_pieces ? ", joined where they are nearest" : ""));
+  return built;
+}
+
+StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud, const GraphOptions& options) {
+  // Before the topology, which sorts the points.
+  const Status finite = CheckFinite(cloud);
+  if (!finite.ok()) return finite;
+  return BuildGraph(cloud, BuildTopology(cloud), options);
+}
+
+}  // namespace ceres_ed

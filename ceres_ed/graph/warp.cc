@@ -1,0 +1,129 @@
+#include "ceres_ed/graph/warp.h"
+
+#include <ceres_ed/util/parallel.h>
+
+#include <string>
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <cost_functions/node_parameters.h>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+// A warped normal this short, against the stretch squared, has lost its direction to rounding.
+constexpr double kMinRelativeNormal = 1e-12;
+
+// The proper rotation nearest to G; a reflection in G is left out.
+Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& G) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(G, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d sign = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign[2] = -1.0;
+  return svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();
+}
+
+Status CheckWarp(const Warp& warp) {
+  if (warp.graph.num_nodes() == 0) return Status::Error("the warp has no nodes");
+  if (warp.state.num_nodes() != warp.graph.num_nodes()) {
+    return Status::Error("the warp has " + std::to_string(warp.graph.num_nodes()) +
+                         " nodes, but the state of " + std::to_string(warp.state.num_nodes()));
+  }
+  return Status::Ok();
+}
+
+}  // namespace
+
+Eigen::Vector3d WarpPoint(const DeformationGraph& graph,
+                          const DeformationState& state,
+                          const Binding& binding,
+                          const Eigen::Vector3d& point) {
+  Eigen::Vector3d warped = Eigen::Vector3d::Zero();
+  for (int i = 0; i < binding.size; ++i) {
+    const double* node = state.node(binding.nodes[i]);
+    const Eigen::Vector3d& g_j = graph.position(binding.nodes[i]);
+    warped += binding.weights[i] * (NodeAffine(node) * (point - g_j) + g_j + NodeTranslation(node));
+  }
+  return warped;
+}
+
+Eigen::Matrix3d WarpGradient(const DeformationState& state, const Binding& binding) {
+  Eigen::Matrix3d G = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < binding.size; ++i) {
+    G += binding.weights[i] * NodeAffine(state.node(binding.nodes[i]));
+  }
+  return G;
+}
+
+Eigen::Vector3d WarpNormal(const DeformationState& state,
+                           const Binding& binding,
+                           const Eigen::Vector3d& normal) {
+  const Eigen::Matrix3d G = WarpGradient(state, binding);
+  // The columns of the cofactor matrix are cross products of those of G.
+  const Eigen::Vector3d warped = normal.x() * G.col(1).cross(G.col(2)) +
+                                 normal.y() * G.col(2).cross(G.col(0)) +
+                                 normal.z() * G.col(0).cross(G.col(1));
+  const double length = warped.norm();
+  if (length > kMinRelativeNormal * G.squaredNorm()) return warped / length;
+  if (normal.isZero(0.0)) return normal;
+  return (NearestRotation(G) * normal).normalized();
+}
+
+void WarpPoints(const DeformationGraph& graph,
+                const DeformationState& state,
+                const Skinning& skinning,
+                const std::vector<Eigen::Vector3d>& points,
+                int num_threads,
+                std::vector<Eigen::Vector3d>* warped) {
+  CHECK_EQ(skinning.size(), points.size());
+  CHECK_EQ(state.num_nodes(), graph.num_nodes());
+  warped->resize(points.size());
+  ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      (*warped)[p] = WarpPoint(graph, state, skinning[p], points[p]);
+    }
+  });
+}
+
+void WarpNormals(const DeformationState& state,
+                 const Skinning& skinning,
+                 const std::vector<Eigen::Vector3d>& normals,
+                 int num_threads,
+                 std::vector<Eigen::Vector3d>* warped) {
+  CHECK_EQ(skinning.size(), normals.size());
+  warped->resize(normals.size());
+  ParallelFor(num_threads, static_cast<int>(normals.size()), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) {
+      (*warped)[p] = WarpNormal(state, skinning[p], normals[p]);
+    }
+  });
+}
+
+Status ApplyWarp(const Warp& warp, PointCloud* cloud, int num_threads) {
+  const Status status = CheckWarp(warp);
+  if (!status.ok()) return status;
+  BindingOptions binding = warp.binding;
+  binding.num_threads = num_threads;
+  const StatusOr<Skinning> skinning = BindCloudToGraph(*cloud, warp.graph, binding);
+  if (!skinning.ok()) return skinning.status();
+  return ApplyWarp(warp, *skinning, cloud, num_threads);
+}
+
+Status ApplyWarp(const Warp& warp, const Skinning& skinning, PointCloud* cloud, int num_threads) {
+  const Status status = CheckWarp(warp);
+  if (!status.ok()) return status;
+  if (skinning.size() != cloud->size()) {
+    return Status::Error("the binding is of " + std::to_string(skinning.size()) +
+                         " points, but the cloud has " + std::to_string(cloud->size()));
+  }
+  WarpPoints(warp.graph, warp.state, skinning, cloud->points, num_threads, &cloud->points);
+  for (Eigen::Vector3d& point : cloud->points) point = warp.target_from_source * point;
+  if (!cloud->HasNormals()) return Status::Ok();
+  WarpNormals(warp.state, skinning, cloud->normals, num_threads, &cloud->normals);
+  for (Eigen::Vector3d& normal : cloud->normals) {
+    normal = warp.target_from_source.rotation * normal;
+  }
+  return Status::Ok();
+}
+
+}  // namespace ceres_ed
