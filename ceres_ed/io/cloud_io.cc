@@ -1,0 +1,190 @@
+#include "ceres_ed/io/cloud_io.h"
+
+#include <ceres_ed/io/ply_reader.h>
+#include <ceres_ed/io/vertex_columns.h>
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+// "1 point" or "5 points".
+std::string Counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
+}
+
+bool IsUsableCoordinate(const Eigen::Vector3d& point) {
+  // Written so that NaN fails.
+  return point.cwiseAbs().maxCoeff() <= kMaxCoordinate && point.allFinite();
+}
+
+class CloudBuilder {
+ public:
+  CloudBuilder(const std::string& path, PlyDocument document) : path_(path) {
+    loaded_.document = std::move(document);
+  }
+
+  StatusOr<LoadedCloud> Build() {
+    vertices_ = loaded_.document.Find("vertex");
+    Status status = AddPoints();
+    if (!status.ok()) return status;
+    AddNormals();
+    status = AddTriangles();
+    if (!status.ok()) return status;
+    return std::move(loaded_);
+  }
+
+ private:
+  Status AddPoints() {
+    if (vertices_ == nullptr) return Error("no element 'vertex'");
+    if (vertices_->count == 0) return Error("no vertices, expected at least one");
+    if (vertices_->count > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+      return Error(std::to_string(vertices_->count) + " vertices, at most 2147483647 can be used");
+    }
+    const std::optional<VertexColumns> columns = FindPositionColumns(*vertices_);
+    if (!columns.has_value()) {
+      std::string names;
+      for (const PlyProperty& property : vertices_->properties) {
+        names += (names.empty() ? "" : " ") + property.name;
+      }
+      return Error("element 'vertex' has the properties '" + names + "', expected x y z");
+    }
+    point_of_vertex_.assign(vertices_->count, -1);
+    loaded_.cloud.points.reserve(vertices_->count);
+    loaded_.vertex_of_point.reserve(vertices_->count);
+    for (std::size_t row = 0; row < vertices_->count; ++row) {
+      const Eigen::Vector3d point = RowOf(*vertices_, *columns, row);
+      if (!IsUsableCoordinate(point)) continue;
+      point_of_vertex_[row] = static_cast<int>(loaded_.cloud.points.size());
+      loaded_.vertex_of_point.push_back(static_cast<int>(row));
+      loaded_.cloud.points.push_back(point);
+    }
+    const std::size_t dropped = vertices_->count - loaded_.cloud.size();
+    if (2 * dropped > vertices_->count) {
+      return Error(std::to_string(dropped) + " of " + std::to_string(vertices_->count) +
+                   " vertices have coordinates that are not finite, expected at most half");
+    }
+    if (dropped > 0)
+      Warn(Counted(dropped, "point") + " with coordinates that are not finite dropped");
+    return Status::Ok();
+  }
+
+  void AddNormals() {
+    const std::optional<VertexColumns> columns = FindNormalColumns(*vertices_);
+    if (!columns.has_value()) return;
+    std::vector<Eigen::Vector3d>& normals = loaded_.cloud.normals;
+    normals.reserve(loaded_.cloud.size());
+    std::size_t bad = 0;
+    for (const int row : loaded_.vertex_of_point) {
+      const Eigen::Vector3d normal = RowOf(*vertices_, *columns, static_cast<std::size_t>(row));
+      const double length = normal.stableNorm();
+      const bool usable = std::isfinite(length) && length > 0.0;
+      if (!usable) ++bad;
+      normals.push_back(usable ? Eigen::Vector3d(normal / length) : Eigen::Vector3d::Zero());
+    }
+    if (bad == normals.size()) {
+      normals.clear();
+      Warn("all normals are zero or not finite and were left out");
+    } else if (bad > 0) {
+      Warn(Counted(bad, "normal") + " of zero length or not finite");
+    }
+  }
+
+  Status AddTriangles() {
+    const PlyElement* const faces = loaded_.document.Find("face");
+    if (faces == nullptr || faces->count == 0) {
+      if (loaded_.document.Find("tristrips") != nullptr) {
+        Warn("triangle strips are not read: the points are used without faces");
+      }
+      return Status::Ok();
+    }
+    const PlyProperty* corners = faces->Find("vertex_indices");
+    if (corners == nullptr) corners = faces->Find("vertex_index");
+    if (corners == nullptr || !corners->is_list) {
+      return Error("element 'face' has no list 'vertex_indices' or 'vertex_index'");
+    }
+    loaded_.cloud.triangles.reserve(faces->count);
+    const double* polygon = corners->values.data();
+    for (std::size_t face = 0; face < faces->count; ++face) {
+      const std::size_t size = corners->list_sizes[face];
+      for (std::size_t i = 0; i < size; ++i) {
+        if (!IsVertex(polygon[i])) return IndexError(face, polygon[i]);
+      }
+      if (size < 3) ++small_polygons_;
+      for (std::size_t i = 2; i < size; ++i) AddTriangle(polygon[0], polygon[i - 1], polygon[i]);
+      polygon += size;
+    }
+    WarnOfDroppedFaces();
+    return Status::Ok();
+  }
+
+  bool IsVertex(double index) const {
+    return index >= 0.0 && index < static_cast<double>(vertices_->count) &&
+           index == std::floor(index);
+  }
+
+  void AddTriangle(double a, double b, double c) {
+    if (a == b || b == c || c == a) {
+      ++degenerate_triangles_;
+      return;
+    }
+    const std::array<int, 3> triangle = {point_of_vertex_[static_cast<std::size_t>(a)],
+                                         point_of_vertex_[static_cast<std::size_t>(b)],
+                                         point_of_vertex_[static_cast<std::size_t>(c)]};
+    if (triangle[0] < 0 || triangle[1] < 0 || triangle[2] < 0) {
+      ++orphan_triangles_;
+      return;
+    }
+    loaded_.cloud.triangles.push_back(triangle);
+  }
+
+  void WarnOfDroppedFaces() {
+    if (small_polygons_ > 0) {
+      Warn(Counted(small_polygons_, "face") + " of fewer than three corners dropped");
+    }
+    if (degenerate_triangles_ > 0) {
+      Warn(Counted(degenerate_triangles_, "triangle") + " with a repeated corner dropped");
+    }
+    if (orphan_triangles_ > 0) {
+      Warn(Counted(orphan_triangles_, "triangle") + " on dropped points dropped");
+    }
+  }
+
+  Status IndexError(std::size_t face, double index) const {
+    const bool whole = index == std::floor(index) && std::abs(index) < 1e15;
+    const std::string name =
+        whole ? std::to_string(static_cast<long long>(index)) : std::to_string(index);
+    return Error("face " + std::to_string(face) + " names vertex " + name + ", the file has " +
+                 std::to_string(vertices_->count));
+  }
+
+  Status Error(const std::string& what) const { return Status::Error(path_ + ": " + what); }
+  void Warn(const std::string& what) { loaded_.warnings.push_back(path_ + ": " + what); }
+
+  std::string path_;
+  LoadedCloud loaded_;
+  const PlyElement* vertices_ = nullptr;
+  // -1 for a dropped one.
+  std::vector<int> point_of_vertex_;
+  std::size_t small_polygons_ = 0;
+  std::size_t degenerate_triangles_ = 0;
+  std::size_t orphan_triangles_ = 0;
+};
+
+}  // namespace
+
+StatusOr<LoadedCloud> CloudFromDocument(const std::string& path, PlyDocument document) {
+  return CloudBuilder(path, std::move(document)).Build();
+}
+
+StatusOr<LoadedCloud> LoadCloud(const std::string& path) {
+  StatusOr<PlyDocument> document = ReadPly(path);
+  if (!document.ok()) return document.status();
+  return CloudFromDocument(path, *std::move(document));
+}
+
+}  // namespace ceres_ed

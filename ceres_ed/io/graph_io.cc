@@ -1,0 +1,72 @@
+#include "ceres_ed/io/graph_io.h"
+
+#include <ceres_ed/io/ply_writer.h>
+#include <ceres_ed/io/vertex_columns.h>
+
+#include <cstddef>
+#include <utility>
+
+#include <Eigen/Core>
+#include <cost_functions/node_parameters.h>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+PlyElement MakeNodeElement(const DeformationGraph& graph,
+                           const DeformationState& state,
+                           const GraphWriteOptions& options) {
+  const auto num_nodes = static_cast<std::size_t>(graph.num_nodes());
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(num_nodes);
+  for (int j = 0; j < graph.num_nodes(); ++j) {
+    positions.push_back(options.output_from_graph *
+                        (graph.position(j) + NodeTranslation(state.node(j))));
+  }
+  PlyProperty pr = MakePlyScalar("pr", PlyType::kInt32, std::vector<double>(num_nodes, 0.0));
+  for (std::size_t j = 0; j < options.is_point_relevant.size(); ++j) {
+    pr.values[j] = options.is_point_relevant[j] ? 1.0 : 0.0;
+  }
+  PlyElement nodes;
+  nodes.name = "vertex";
+  nodes.count = num_nodes;
+  AppendVectorColumns(positions, {"x", "y", "z"}, PlyType::kFloat32, &nodes);
+  nodes.properties.push_back(std::move(pr));
+  AppendVectorColumns(graph.positions(), {"rest_x", "rest_y", "rest_z"}, PlyType::kFloat32, &nodes);
+  return nodes;
+}
+
+PlyElement MakeEdgeElement(const DeformationGraph& graph) {
+  PlyProperty from = MakePlyScalar("vertex1", PlyType::kInt32);
+  PlyProperty to = MakePlyScalar("vertex2", PlyType::kInt32);
+  PlyProperty alpha = MakePlyScalar("alpha", PlyType::kFloat32);
+  for (const GraphEdge& edge : graph.edges()) {
+    from.values.push_back(edge.from);
+    to.values.push_back(edge.to);
+    alpha.values.push_back(edge.weight);
+  }
+  PlyElement edges;
+  edges.name = "edge";
+  edges.count = graph.edges().size();
+  edges.properties = {std::move(from), std::move(to), std::move(alpha)};
+  return edges;
+}
+
+}  // namespace
+
+Status WriteGraph(const std::string& path,
+                  const DeformationGraph& graph,
+                  const DeformationState& state,
+                  const GraphWriteOptions& options) {
+  CHECK_EQ(state.num_nodes(), graph.num_nodes());
+  CHECK(options.is_point_relevant.empty() ||
+        options.is_point_relevant.size() == static_cast<std::size_t>(graph.num_nodes()))
+      << options.is_point_relevant.size() << " flags for " << graph.num_nodes() << " nodes";
+  PlyDocument document;
+  document.format = options.format;
+  document.comments = {"embedded deformation graph"};
+  document.elements = {MakeNodeElement(graph, state, options), MakeEdgeElement(graph)};
+  return WritePly(path, document);
+}
+
+}  // namespace ceres_ed

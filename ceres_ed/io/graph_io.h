@@ -1,0 +1,35 @@
+// A deformation graph as a PLY, to look at.
+#ifndef CERES_ED_IO_GRAPH_IO_H_
+#define CERES_ED_IO_GRAPH_IO_H_
+
+#include <ceres_ed/geometry/similarity.h>
+#include <ceres_ed/graph/deformation_graph.h>
+#include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/io/ply_document.h>
+#include <ceres_ed/util/status.h>
+
+#include <string>
+#include <vector>
+
+namespace ceres_ed {
+
+struct GraphWriteOptions {
+  PlyFormat format = PlyFormat::kBinaryLittleEndian;
+  // Takes the deformed positions g_j + t_j into the frame of the file.
+  Similarity output_from_graph;
+  // Empty (all 0), or for each node whether it is PR.
+  std::vector<bool> is_point_relevant;
+};
+
+// Returns ok when `path` holds the graph: element 'vertex' with float x y z (deformed position),
+// int pr (1 for a PR node) and float rest_x rest_y rest_z (g_j in the frame of the graph); element
+// 'edge' with int vertex1 vertex2 and float alpha, directed. Else an error with the system's
+// reason.
+Status WriteGraph(const std::string& path,
+                  const DeformationGraph& graph,
+                  const DeformationState& state,
+                  const GraphWriteOptions& options = {});
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_IO_GRAPH_IO_H_

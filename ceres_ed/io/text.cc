@@ -1,0 +1,69 @@
+#include "ceres_ed/io/text.h"
+
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <system_error>
+
+namespace ceres_ed {
+namespace {
+
+// from_chars leaves the value alone when it is out of range; the exponent's sign tells which way.
+double OutOfRangeValue(std::string_view text) {
+  const std::size_t exponent = text.find_first_of("eE");
+  const bool tiny =
+      exponent != std::string_view::npos && exponent + 1 < text.size() && text[exponent + 1] == '-';
+  const double magnitude = tiny ? 0.0 : std::numeric_limits<double>::infinity();
+  return text[0] == '-' ? -magnitude : magnitude;
+}
+
+}  // namespace
+
+std::optional<double> ParseDouble(std::string_view text) {
+  // from_chars takes no plus sign, but printf("%+g") writes one.
+  if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
+  double value = 0.0;
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, value);
+  if (result.ptr != end) return std::nullopt;
+  if (result.ec == std::errc::result_out_of_range) return OutOfRangeValue(text);
+  if (result.ec != std::errc()) return std::nullopt;
+  return value;
+}
+
+StatusOr<std::size_t> OpenRegularFile(const std::string& path, std::ifstream* file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (error || !std::filesystem::exists(status)) {
+    return Status::Error(
+        path + ": cannot read: " + (error ? error.message() : std::string(std::strerror(ENOENT))));
+  }
+  if (std::filesystem::is_directory(status)) {
+    return Status::Error(path + ": is a directory, expected a file");
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    return Status::Error(path + ": is a device or a pipe, expected a regular file");
+  }
+  errno = 0;
+  file->open(path, std::ios::binary);
+  if (!*file) return Status::Error(path + ": cannot read: " + std::strerror(errno));
+  const std::uintmax_t size = std::filesystem::file_size(path, error);
+  if (error) return Status::Error(path + ": cannot read: " + error.message());
+  return static_cast<std::size_t>(size);
+}
+
+StatusOr<std::string> ReadWholeFile(const std::string& path) {
+  std::ifstream file;
+  const StatusOr<std::size_t> size = OpenRegularFile(path, &file);
+  if (!size.ok()) return size.status();
+  std::string contents(*size, '\0');
+  file.read(contents.data(), static_cast<std::streamsize>(contents.size()));
+  if (static_cast<std::size_t>(file.gcount()) != contents.size()) {
+    return Status::Error(path + ": cannot read: it ends ahead of its size");
+  }
+  return contents;
+}
+
+}  // namespace ceres_ed

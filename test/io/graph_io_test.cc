@@ -1,0 +1,67 @@
+#include "ceres_ed/io/graph_io.h"
+
+#include "io_test_util.h"
+
+#include <ceres_ed/io/cloud_io.h>
+
+#include <cmath>
+#include <string>
+
+#include <cost_functions/node_parameters.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+TEST(WriteGraph, HoldsDeformedNodesRestPositionsAndEdges) {
+  const TemporaryDirectory directory;
+  DeformationGraph graph;
+  graph.AddNode({1, 0, 0});
+  graph.AddNode({0, 2, 0});
+  graph.AddEdge({0, 1, 0.25});
+  graph.AddEdge({1, 0, 0.5});
+  DeformationState state(2);
+  MutableNodeTranslation(state.node(1)) = Eigen::Vector3d(0, 0, 3);
+  GraphWriteOptions options;
+  options.format = PlyFormat::kAscii;
+  options.is_point_relevant = {false, true};
+  // Twice as large, a quarter turn about z (x to y), then 10 along x.
+  options.output_from_graph.scale = 2.0;
+  options.output_from_graph.rotation =
+      Eigen::Quaterniond(Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitZ()));
+  options.output_from_graph.translation = {10, 0, 0};
+  const std::string path = directory / "graph.ply";
+  ASSERT_TRUE(WriteGraph(path, graph, state, options).ok());
+
+  const StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+  // Floats: 10 has an ulp of 1e-6.
+  EXPECT_LT((loaded->cloud.points[0] - Eigen::Vector3d(10, 2, 0)).norm(), 1e-6);
+  EXPECT_LT((loaded->cloud.points[1] - Eigen::Vector3d(6, 0, 6)).norm(), 1e-6);
+  const PlyElement& nodes = *loaded->document.Find("vertex");
+  EXPECT_THAT(nodes.Find("pr")->values, ElementsAre(0, 1));
+  EXPECT_EQ(nodes.Find("pr")->type, PlyType::kInt32);
+  EXPECT_THAT(nodes.Find("rest_x")->values, ElementsAre(1, 0));
+  EXPECT_THAT(nodes.Find("rest_y")->values, ElementsAre(0, 2));
+  EXPECT_THAT(nodes.Find("rest_z")->values, ElementsAre(0, 0));
+  const PlyElement& edges = *loaded->document.Find("edge");
+  EXPECT_THAT(edges.Find("vertex1")->values, ElementsAre(0, 1));
+  EXPECT_THAT(edges.Find("vertex2")->values, ElementsAre(1, 0));
+  EXPECT_THAT(edges.Find("alpha")->values, ElementsAre(0.25, 0.5));
+  EXPECT_EQ(edges.Find("alpha")->type, PlyType::kFloat32);
+}
+
+TEST(WriteGraph, MissingDirectoryIsAnError) {
+  const TemporaryDirectory directory;
+  DeformationGraph graph;
+  graph.AddNode({1, 0, 0});
+  EXPECT_THAT(WriteGraph(directory / "no/g.ply", graph, DeformationState(1)).message(),
+              HasSubstr("g.ply: cannot write: No such file"));
+}
+
+}  // namespace
+}  // namespace ceres_ed
