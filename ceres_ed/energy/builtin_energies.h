@@ -1,0 +1,15 @@
+// The energies that come with the library.
+#ifndef CERES_ED_ENERGY_BUILTIN_ENERGIES_H_
+#define CERES_ED_ENERGY_BUILTIN_ENERGIES_H_
+
+#include <ceres_ed/energy/energy_registry.h>
+
+namespace ceres_ed {
+
+// Adds rotation, regularization, point_to_plane, point_to_point, landmark and pose_prior.
+// CHECK-fails when one of these names is taken: call it first.
+void RegisterBuiltinEnergies(EnergyRegistry* registry);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_ENERGY_BUILTIN_ENERGIES_H_

@@ -1,0 +1,122 @@
+// What an energy is: one physical term of the objective (rotation, regularization, point-to-plane).
+//
+// A term turns what is known (EnergyContext) into Ceres cost functions and hands them to a sink. It
+// never weighs them and never makes them robust: that is the problem builder's part, so that the
+// same residuals yield weighted and raw costs.
+#ifndef CERES_ED_ENERGY_ENERGY_H_
+#define CERES_ED_ENERGY_ENERGY_H_
+
+#include <ceres_ed/graph/deformation_graph.h>
+#include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/graph/skinning.h>
+#include <ceres_ed/util/status.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <ceres/cost_function.h>
+
+namespace ceres_ed {
+
+// An observation makes the nodes that its residuals touch PR (point relevant); a prior doesn't.
+enum class EnergyKind { kObservation, kPrior };
+
+enum class ParameterType { kReal, kInteger, kFlag };
+
+// A parameter of an energy, as users set it (`--energy=NAME:param=value`). Values are doubles; an
+// integer has no fraction and a flag is 0 or 1.
+struct EnergyParameter {
+  std::string name;
+  ParameterType type = ParameterType::kReal;
+  // "-" where it has none. Lengths are in map units, in ed_fit source diagonals.
+  std::string unit = "-";
+  double minimum = 0.0;
+  double maximum = 0.0;
+  double default_value = 0.0;
+  // One line.
+  std::string doc;
+};
+
+// What a registry says of an energy.
+struct EnergyInfo {
+  std::string name;
+  // One line; what the energy wants.
+  std::string summary;
+  // The residual, with its source ("Eq. 5").
+  std::string equation;
+  // Unit of the residual.
+  std::string unit;
+  EnergyKind kind = EnergyKind::kPrior;
+  std::vector<EnergyParameter> parameters;
+};
+
+// A parameter block that a residual touches.
+struct BlockRef {
+  enum class Kind { kNode, kCameraRotation, kCameraTranslation };
+
+  Kind kind = Kind::kNode;
+  // Node index; -1 for the camera.
+  int node = -1;
+
+  static BlockRef Node(int node) { return {Kind::kNode, node}; }
+  static BlockRef CameraRotation() { return {Kind::kCameraRotation, -1}; }
+  static BlockRef CameraTranslation() { return {Kind::kCameraTranslation, -1}; }
+};
+
+// A point of the map and where it was observed.
+struct Correspondence {
+  // Index into EnergyContext::points.
+  int point = -1;
+  // In the camera frame where there is a camera, else in the map frame. Map units.
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  // Unit normal of the target surface in the same frame; zero where none is known.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  // >= 0, no unit: share of this observation in the sum.
+  double weight = 1.0;
+};
+
+// What energies may look at. Pointers are never null; lists may be empty.
+struct EnergyContext {
+  const DeformationGraph* graph = nullptr;
+  // Points at rest, map units, and the nodes that carry them.
+  const std::vector<Eigen::Vector3d>* points = nullptr;
+  const Skinning* skinning = nullptr;
+  // Found by matching; changes from iteration to iteration.
+  const std::vector<Correspondence>* correspondences = nullptr;
+  // Given by the user (landmarks, pinned points); stays.
+  const std::vector<Correspondence>* landmarks = nullptr;
+  // Whether warped points go on into a camera frame (Eq. 1 with R_c, T_c).
+  bool has_camera = false;
+  // Where the camera is thought to be before the solve.
+  CameraPose camera_prior;
+};
+
+// Where an energy puts its residuals.
+class ResidualSink {
+ public:
+  virtual ~ResidualSink() = default;
+
+  // `blocks` in the order of the cost function's parameter blocks. `weight` >= 0 multiplies this
+  // residual's (robust) cost on top of the weight of its energy.
+  virtual void Add(std::unique_ptr<ceres::CostFunction> cost,
+                   const BlockRef* blocks,
+                   int num_blocks,
+                   double weight = 1.0) = 0;
+};
+
+// One term of the objective, with its parameters set.
+class EnergyTerm {
+ public:
+  virtual ~EnergyTerm() = default;
+
+  virtual EnergyKind kind() const = 0;
+
+  // Adds all residuals of this term for `context`. Callable any number of times.
+  virtual void AddResiduals(const EnergyContext& context, ResidualSink* sink) const = 0;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_ENERGY_ENERGY_H_

@@ -1,0 +1,59 @@
+// The energies that a program knows, by name.
+#ifndef CERES_ED_ENERGY_ENERGY_REGISTRY_H_
+#define CERES_ED_ENERGY_ENERGY_REGISTRY_H_
+
+#include <ceres_ed/energy/energy.h>
+#include <ceres_ed/util/status.h>
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ceres_ed {
+
+// Values of all parameters of one energy: the given ones, checked, and defaults for the rest.
+class ParameterValues {
+ public:
+  // `given` must name parameters of `info` and be in their ranges; the error lists the known ones.
+  static StatusOr<ParameterValues> Create(const EnergyInfo& info,
+                                          const std::map<std::string, double>& given);
+
+  // The value of a parameter that the energy has declared; CHECK-fails on any other name.
+  double Get(const std::string& name) const;
+  bool GetFlag(const std::string& name) const { return Get(name) != 0.0; }
+
+ private:
+  std::map<std::string, double> values_;
+};
+
+// An explicit object: no singleton, nothing registers itself.
+class EnergyRegistry {
+ public:
+  using Factory = std::function<std::unique_ptr<EnergyTerm>(const ParameterValues&)>;
+
+  // Error: the name is taken, is not snake_case, or a parameter's default is out of its range.
+  Status Register(EnergyInfo info, Factory factory);
+
+  // All energies in the order of their names.
+  std::vector<const EnergyInfo*> List() const;
+
+  // Null where there is none of this name.
+  const EnergyInfo* Find(const std::string& name) const;
+
+  // A term with its parameters set. Error: unknown energy or parameter, value out of range.
+  StatusOr<std::unique_ptr<EnergyTerm>> Create(
+      const std::string& name, const std::map<std::string, double>& parameters) const;
+
+ private:
+  struct Entry {
+    EnergyInfo info;
+    Factory factory;
+  };
+  std::map<std::string, Entry> entries_;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_ENERGY_ENERGY_REGISTRY_H_

@@ -1,0 +1,129 @@
+#include "ceres_ed/energy/energy_spec.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <sstream>
+#include <utility>
+
+#include <cost_functions/robust_loss.h>
+
+namespace ceres_ed {
+namespace {
+
+struct NamedLoss {
+  const char* name;
+  LossType type;
+};
+constexpr NamedLoss kLosses[] = {{"squared", LossType::kSquared},
+                                 {"huber", LossType::kHuber},
+                                 {"cauchy", LossType::kCauchy},
+                                 {"tukey", LossType::kTukey},
+                                 {"welsch", LossType::kWelsch},
+                                 {"geman_mcclure", LossType::kGemanMcClure}};
+
+std::vector<std::string> Split(const std::string& text, char separator) {
+  std::vector<std::string> pieces;
+  std::istringstream stream(text);
+  for (std::string piece; std::getline(stream, piece, separator);) pieces.push_back(piece);
+  return pieces;
+}
+
+Status SetParameter(const std::string& key, const std::string& value, EnergySpec* spec) {
+  if (key == "loss") {
+    StatusOr<LossType> type = ParseLossType(value);
+    if (!type.ok()) return type.status();
+    spec->loss.type = *type;
+    return Status::Ok();
+  }
+  char* end = nullptr;
+  const double number = std::strtod(value.c_str(), &end);
+  if (value.empty() || *end != '\0' || !std::isfinite(number)) {
+    return Status::Error("energy '" + spec->name + "': " + key + "='" + value +
+                         "', expected a finite number");
+  }
+  if (key == "weight") {
+    if (number < 0.0) {
+      return Status::Error("energy '" + spec->name + "': weight=" + value + ", expected >= 0");
+    }
+    spec->weight = number;
+  } else if (key == "loss_width") {
+    if (number <= 0.0) {
+      return Status::Error("energy '" + spec->name + "': loss_width=" + value + ", expected > 0");
+    }
+    spec->loss.width = number;
+  } else {
+    spec->parameters[key] = number;
+  }
+  return Status::Ok();
+}
+
+StatusOr<EnergySpec> ParseOne(const std::string& text) {
+  EnergySpec spec;
+  const std::size_t colon = text.find(':');
+  spec.name = text.substr(0, colon);
+  if (spec.name.empty()) {
+    return Status::Error("energy '" + text + "': expected NAME[:param=value,...]");
+  }
+  if (colon == std::string::npos) return spec;
+  for (const std::string& piece : Split(text.substr(colon + 1), ',')) {
+    const std::size_t equals = piece.find('=');
+    if (equals == std::string::npos || equals == 0) {
+      return Status::Error("energy '" + spec.name + "': '" + piece + "', expected param=value");
+    }
+    Status status = SetParameter(piece.substr(0, equals), piece.substr(equals + 1), &spec);
+    if (!status.ok()) return status;
+  }
+  return spec;
+}
+
+}  // namespace
+
+StatusOr<LossType> ParseLossType(const std::string& name) {
+  std::string known;
+  for (const NamedLoss& loss : kLosses) {
+    if (name == loss.name) return loss.type;
+    known += std::string(known.empty() ? "" : ", ") + loss.name;
+  }
+  return Status::Error("loss '" + name + "', expected one of: " + known);
+}
+
+std::string LossTypeName(LossType type) {
+  for (const NamedLoss& loss : kLosses) {
+    if (type == loss.type) return loss.name;
+  }
+  LOG(FATAL) << "unnamed loss " << static_cast<int>(type);
+}
+
+std::unique_ptr<ceres::LossFunction> MakeLoss(const LossSpec& spec) {
+  if (spec.type != LossType::kSquared) {
+    CHECK(spec.width > 0.0) << "loss width " << spec.width;
+  }
+  switch (spec.type) {
+    case LossType::kSquared:
+      return nullptr;
+    case LossType::kHuber:
+      return std::make_unique<ceres::HuberLoss>(spec.width);
+    case LossType::kCauchy:
+      return std::make_unique<ceres::CauchyLoss>(spec.width);
+    case LossType::kTukey:
+      return std::make_unique<ceres::TukeyLoss>(spec.width);
+    case LossType::kWelsch:
+      return std::make_unique<WelschLoss>(spec.width);
+    case LossType::kGemanMcClure:
+      return std::make_unique<GemanMcClureLoss>(spec.width);
+  }
+  LOG(FATAL) << "unnamed loss " << static_cast<int>(spec.type);
+}
+
+StatusOr<std::vector<EnergySpec>> ParseEnergySpecs(const std::string& text) {
+  std::vector<EnergySpec> specs;
+  for (const std::string& piece : Split(text, ';')) {
+    if (piece.empty()) continue;
+    StatusOr<EnergySpec> spec = ParseOne(piece);
+    if (!spec.ok()) return spec.status();
+    specs.push_back(*std::move(spec));
+  }
+  return specs;
+}
+
+}  // namespace ceres_ed

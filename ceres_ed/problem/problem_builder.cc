@@ -1,0 +1,263 @@
+#include "ceres_ed/problem/problem_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <utility>
+
+#include <ceres/manifold.h>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+const double* BlockPointer(const DeformationState& state, const BlockRef& block) {
+  switch (block.kind) {
+    case BlockRef::Kind::kNode:
+      return state.node(block.node);
+    case BlockRef::Kind::kCameraRotation:
+      return state.camera_from_map.rotation.coeffs().data();
+    case BlockRef::Kind::kCameraTranslation:
+      return state.camera_from_map.translation.data();
+  }
+  LOG(FATAL) << "unknown block kind";
+}
+
+int BlockSize(const BlockRef& block) {
+  switch (block.kind) {
+    case BlockRef::Kind::kNode:
+      return kNodeSize;
+    case BlockRef::Kind::kCameraRotation:
+      return kRotationSize;
+    case BlockRef::Kind::kCameraTranslation:
+      return kTranslationSize;
+  }
+  LOG(FATAL) << "unknown block kind";
+}
+
+bool IsVariable(const BlockRef& block, const ProblemConfig& config) {
+  return block.kind == BlockRef::Kind::kNode ? config.variable_nodes[block.node] != 0
+                                             : config.camera_variable;
+}
+
+ceres::Problem::Options ProblemOptions() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  // Sizes and aliasing are checked once, by the sink.
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+}  // namespace
+
+// Checks each residual once, when it is collected.
+class ProblemBuilder::TermSink final : public ResidualSink {
+ public:
+  TermSink(Term* term, int num_nodes, bool has_camera)
+      : term_(term), num_nodes_(num_nodes), has_camera_(has_camera) {}
+
+  void Add(std::unique_ptr<ceres::CostFunction> cost,
+           const BlockRef* blocks,
+           int num_blocks,
+           double weight) override {
+    CHECK(cost != nullptr) << "energy '" << term_->label << "' added no cost function";
+    CHECK(weight >= 0.0) << "energy '" << term_->label << "': residual weight " << weight;
+    const std::vector<int>& sizes = cost->parameter_block_sizes();
+    CHECK_EQ(static_cast<int>(sizes.size()), num_blocks) << "energy '" << term_->label << "'";
+    for (int i = 0; i < num_blocks; ++i) CheckBlock(blocks[i], sizes[i]);
+    const int first_block = static_cast<int>(term_->blocks.size());
+    term_->blocks.insert(term_->blocks.end(), blocks, blocks + num_blocks);
+    term_->residuals.push_back({std::move(cost), weight, first_block, num_blocks});
+  }
+
+ private:
+  void CheckBlock(const BlockRef& block, int size) const {
+    CHECK_EQ(BlockSize(block), size) << "energy '" << term_->label << "': block size";
+    if (block.kind == BlockRef::Kind::kNode) {
+      CHECK(block.node >= 0 && block.node < num_nodes_)
+          << "energy '" << term_->label << "': node " << block.node << " of " << num_nodes_;
+    } else {
+      CHECK(has_camera_) << "energy '" << term_->label << "' uses a camera that isn't there";
+    }
+  }
+
+  Term* term_;
+  int num_nodes_;
+  bool has_camera_;
+};
+
+double EnergySummary::Total() const {
+  double total = 0.0;
+  for (const TermEnergy& term : terms) total += term.weighted;
+  return total;
+}
+
+ProblemBuilder::ProblemBuilder(const DeformationGraph& graph, bool has_camera)
+    : graph_(graph), has_camera_(has_camera) {}
+
+ProblemBuilder::~ProblemBuilder() = default;
+
+int ProblemBuilder::AddTerm(std::string label,
+                            EnergyKind kind,
+                            double weight,
+                            const LossSpec& loss) {
+  Term term;
+  term.label = std::move(label);
+  term.kind = kind;
+  terms_.push_back(std::move(term));
+  const int index = num_terms() - 1;
+  SetWeight(index, weight);
+  SetLoss(index, loss);
+  return index;
+}
+
+void ProblemBuilder::CollectResiduals(int term,
+                                      const EnergyTerm& energy,
+                                      const EnergyContext& context) {
+  CHECK_EQ(context.graph, &graph_) << "the context is of another graph";
+  CHECK_EQ(context.has_camera, has_camera_);
+  Term& target = terms_[term];
+  target.residuals.clear();
+  target.blocks.clear();
+  TermSink sink(&target, graph_.num_nodes(), has_camera_);
+  energy.AddResiduals(context, &sink);
+}
+
+void ProblemBuilder::SetWeight(int term, double weight) {
+  CHECK(std::isfinite(weight) && weight >= 0.0)
+      << "energy '" << terms_[term].label << "': weight " << weight;
+  terms_[term].weight = weight;
+}
+
+void ProblemBuilder::SetLoss(int term, const LossSpec& loss) { terms_[term].loss = loss; }
+
+int ProblemBuilder::NumResidualBlocks(int term) const {
+  return static_cast<int>(terms_[term].residuals.size());
+}
+
+std::vector<char> ProblemBuilder::PointRelevantNodes() const {
+  std::vector<char> relevant(graph_.num_nodes(), 0);
+  for (const Term& term : terms_) {
+    if (term.kind != EnergyKind::kObservation || term.weight == 0.0) continue;
+    for (const Residual& residual : term.residuals) {
+      if (residual.weight == 0.0) continue;
+      for (int i = 0; i < residual.num_blocks; ++i) {
+        const BlockRef& block = term.blocks[residual.first_block + i];
+        if (block.kind == BlockRef::Kind::kNode) relevant[block.node] = 1;
+      }
+    }
+  }
+  return relevant;
+}
+
+bool ProblemBuilder::IsIncluded(const Term& term,
+                                const Residual& residual,
+                                const ProblemConfig& config) const {
+  if (term.weight == 0.0 || residual.weight == 0.0) return false;
+  int num_variable = 0;
+  for (int i = 0; i < residual.num_blocks; ++i) {
+    if (IsVariable(term.blocks[residual.first_block + i], config)) ++num_variable;
+  }
+  if (num_variable == 0) return false;
+  const bool crosses_seam = num_variable < residual.num_blocks;
+  return !(crosses_seam && term.kind == EnergyKind::kPrior && config.seam_edges == SeamEdges::kCut);
+}
+
+void ProblemBuilder::AddTermToProblem(const Term& term,
+                                      const ProblemConfig& config,
+                                      DeformationState* state,
+                                      std::vector<char>* touched_nodes,
+                                      BuiltProblem* built) const {
+  // Residuals of equal weight share a loss.
+  std::map<double, ceres::LossFunction*> loss_of_weight;
+  const auto loss_for = [&](double weight) {
+    ceres::LossFunction*& loss = loss_of_weight[weight];
+    if (loss == nullptr) {
+      built->losses.push_back(std::make_unique<ceres::ScaledLoss>(
+          MakeLoss(term.loss).release(), weight, ceres::TAKE_OWNERSHIP));
+      loss = built->losses.back().get();
+    }
+    return loss;
+  };
+  std::vector<double*> blocks;
+  for (const Residual& residual : term.residuals) {
+    if (!IsIncluded(term, residual, config)) continue;
+    blocks.clear();
+    for (int i = 0; i < residual.num_blocks; ++i) {
+      const BlockRef& block = term.blocks[residual.first_block + i];
+      blocks.push_back(const_cast<double*>(BlockPointer(*state, block)));
+      if (block.kind == BlockRef::Kind::kNode) (*touched_nodes)[block.node] = 1;
+    }
+    built->problem->AddResidualBlock(residual.cost.get(),
+                                     loss_for(term.weight * residual.weight),
+                                     blocks.data(),
+                                     residual.num_blocks);
+  }
+}
+
+BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState* state) const {
+  CHECK_EQ(static_cast<int>(config.variable_nodes.size()), graph_.num_nodes());
+  CHECK_EQ(state->num_nodes(), graph_.num_nodes());
+  CHECK(has_camera_ || !config.camera_variable) << "there is no camera to vary";
+  BuiltProblem built;
+  built.problem = std::make_unique<ceres::Problem>(ProblemOptions());
+  built.camera_variable = config.camera_variable;
+  std::vector<char> touched_nodes(graph_.num_nodes(), 0);
+  for (const Term& term : terms_) {
+    AddTermToProblem(term, config, state, &touched_nodes, &built);
+  }
+  for (int j = 0; j < graph_.num_nodes(); ++j) {
+    if (touched_nodes[j] == 0) continue;
+    if (config.variable_nodes[j] != 0) {
+      ++built.num_variable_nodes;
+    } else {
+      built.problem->SetParameterBlockConstant(state->node(j));
+    }
+  }
+  double* rotation = state->camera_from_map.rotation.coeffs().data();
+  double* translation = state->camera_from_map.translation.data();
+  if (built.problem->HasParameterBlock(rotation)) {
+    built.rotation_manifold = std::make_unique<ceres::EigenQuaternionManifold>();
+    built.problem->SetManifold(rotation, built.rotation_manifold.get());
+    if (!config.camera_variable) built.problem->SetParameterBlockConstant(rotation);
+  }
+  if (built.problem->HasParameterBlock(translation) && !config.camera_variable) {
+    built.problem->SetParameterBlockConstant(translation);
+  }
+  return built;
+}
+
+EnergySummary ProblemBuilder::Evaluate(const DeformationState& state) const {
+  EnergySummary summary;
+  std::vector<const double*> blocks;
+  std::vector<double> residuals;
+  for (const Term& term : terms_) {
+    TermEnergy energy;
+    energy.label = term.label;
+    const std::unique_ptr<ceres::LossFunction> loss = MakeLoss(term.loss);
+    for (const Residual& residual : term.residuals) {
+      blocks.clear();
+      for (int i = 0; i < residual.num_blocks; ++i) {
+        blocks.push_back(BlockPointer(state, term.blocks[residual.first_block + i]));
+      }
+      residuals.assign(residual.cost->num_residuals(), 0.0);
+      double squared_norm = std::numeric_limits<double>::quiet_NaN();
+      if (residual.cost->Evaluate(blocks.data(), residuals.data(), nullptr)) {
+        squared_norm = 0.0;
+        for (const double r : residuals) squared_norm += r * r;
+      }
+      double rho[3] = {squared_norm, 1.0, 0.0};
+      if (loss != nullptr) loss->Evaluate(squared_norm, rho);
+      energy.weighted += 0.5 * term.weight * residual.weight * rho[0];
+      energy.raw += 0.5 * squared_norm;
+      energy.residuals += residual.cost->num_residuals();
+    }
+    summary.terms.push_back(std::move(energy));
+  }
+  return summary;
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,120 @@
+// Turns energies into Ceres problems: the full one, or any part of it.
+#ifndef CERES_ED_PROBLEM_PROBLEM_BUILDER_H_
+#define CERES_ED_PROBLEM_PROBLEM_BUILDER_H_
+
+#include <ceres_ed/energy/energy.h>
+#include <ceres_ed/energy/energy_spec.h>
+#include <ceres_ed/problem/problem_config.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ceres/loss_function.h>
+#include <ceres/manifold.h>
+#include <ceres/problem.h>
+
+namespace ceres_ed {
+
+// A ceres::Problem over the blocks of one DeformationState, with the losses that it uses. Cost
+// functions stay with the builder: both must outlive this, and the state must not be resized.
+struct BuiltProblem {
+  // Declared ahead of the problem, which refers to them.
+  std::vector<std::unique_ptr<ceres::LossFunction>> losses;
+  std::unique_ptr<ceres::Manifold> rotation_manifold;
+  std::unique_ptr<ceres::Problem> problem;
+  int num_variable_nodes = 0;
+  bool camera_variable = false;
+};
+
+// The cost of one term. With the sum over residual blocks i of the term:
+struct TermEnergy {
+  std::string label;
+  // sum_i weight * weight_i * rho(|r_i|^2) / 2: what Ceres minimises.
+  double weighted = 0.0;
+  // sum_i |r_i|^2 / 2, free of weights and losses.
+  double raw = 0.0;
+  // Number of scalar residuals.
+  int residuals = 0;
+};
+
+// The costs of all terms at one state.
+struct EnergySummary {
+  std::vector<TermEnergy> terms;
+
+  // The objective (Eq. 3), half of it as Ceres counts.
+  double Total() const;
+};
+
+// Collects the residuals of energy terms once, and builds any number of Ceres problems from them.
+// The graph must outlive the builder.
+class ProblemBuilder {
+ public:
+  ProblemBuilder(const DeformationGraph& graph, bool has_camera);
+  ~ProblemBuilder();
+  ProblemBuilder(const ProblemBuilder&) = delete;
+  ProblemBuilder& operator=(const ProblemBuilder&) = delete;
+
+  const DeformationGraph& graph() const { return graph_; }
+  bool has_camera() const { return has_camera_; }
+
+  // Adds a term with no residuals yet and returns its index. `label` names it in summaries;
+  // weight >= 0.
+  int AddTerm(std::string label, EnergyKind kind, double weight = 1.0, const LossSpec& loss = {});
+
+  // Collects (or, after new correspondences, collects anew) the residuals of a term.
+  void CollectResiduals(int term, const EnergyTerm& energy, const EnergyContext& context);
+
+  // Takes effect in problems that are built from now on.
+  void SetWeight(int term, double weight);
+  void SetLoss(int term, const LossSpec& loss);
+
+  int num_terms() const { return static_cast<int>(terms_.size()); }
+  double weight(int term) const { return terms_[term].weight; }
+  // Residual blocks of a term.
+  int NumResidualBlocks(int term) const;
+
+  // One entry a node: nonzero where an observation residual of positive weight touches it (PR).
+  std::vector<char> PointRelevantNodes() const;
+
+  // The problem of `config` over the blocks of `state`. Blocks that residuals touch and that aren't
+  // variable are constant. Observations are never cut.
+  BuiltProblem Build(const ProblemConfig& config, DeformationState* state) const;
+
+  // The costs of all residuals at `state`, whatever a config would leave out. A residual that can't
+  // be evaluated makes its term's costs NaN.
+  EnergySummary Evaluate(const DeformationState& state) const;
+
+ private:
+  // A residual block: its cost function and where its blocks stand in Term::blocks.
+  struct Residual {
+    std::unique_ptr<ceres::CostFunction> cost;
+    double weight = 1.0;
+    int first_block = 0;
+    int num_blocks = 0;
+  };
+  struct Term {
+    std::string label;
+    EnergyKind kind = EnergyKind::kPrior;
+    double weight = 1.0;
+    LossSpec loss;
+    std::vector<Residual> residuals;
+    std::vector<BlockRef> blocks;
+  };
+  class TermSink;
+
+  bool IsIncluded(const Term& term, const Residual& residual, const ProblemConfig& config) const;
+  void AddTermToProblem(const Term& term,
+                        const ProblemConfig& config,
+                        DeformationState* state,
+                        std::vector<char>* touched_nodes,
+                        BuiltProblem* built) const;
+
+  const DeformationGraph& graph_;
+  const bool has_camera_;
+  std::vector<Term> terms_;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_PROBLEM_PROBLEM_BUILDER_H_

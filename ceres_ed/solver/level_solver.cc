@@ -1,0 +1,96 @@
+#include "ceres_ed/solver/level_solver.h"
+
+#include <ceres_ed/util/timer.h>
+
+#include <ceres/solver.h>
+
+namespace ceres_ed {
+namespace {
+
+// Ends the solve when the caller wants it; Ceres then keeps the best state.
+class StopCallback final : public ceres::IterationCallback {
+ public:
+  explicit StopCallback(const std::function<bool()>& should_stop) : should_stop_(should_stop) {}
+
+  ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
+    if (!should_stop_()) return ceres::SOLVER_CONTINUE;
+    stopped_ = true;
+    return ceres::SOLVER_TERMINATE_SUCCESSFULLY;
+  }
+
+  bool stopped() const { return stopped_; }
+
+ private:
+  const std::function<bool()>& should_stop_;
+  bool stopped_ = false;
+};
+
+ceres::Solver::Options CeresOptions(const SolverOptions& options) {
+  ceres::Solver::Options ceres_options;
+  // Deterministic over thread counts, which the Schur solvers are not.
+  ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  ceres_options.sparse_linear_algebra_library_type = PreferredSparseLibrary();
+  ceres_options.max_num_iterations = options.max_iterations;
+  ceres_options.function_tolerance = options.function_tolerance;
+  ceres_options.gradient_tolerance = options.gradient_tolerance;
+  ceres_options.parameter_tolerance = options.parameter_tolerance;
+  ceres_options.initial_trust_region_radius = options.initial_trust_region_radius;
+  ceres_options.num_threads = options.num_threads;
+  ceres_options.max_solver_time_in_seconds = options.time_limit_s;
+  ceres_options.logging_type = ceres::SILENT;
+  return ceres_options;
+}
+
+SolveStatus StatusOf(const ceres::Solver::Summary& ceres_summary, const SolverOptions& options) {
+  switch (ceres_summary.termination_type) {
+    case ceres::CONVERGENCE:
+    case ceres::USER_SUCCESS:
+      return SolveStatus::kConverged;
+    case ceres::NO_CONVERGENCE:
+      return ceres_summary.total_time_in_seconds >= options.time_limit_s
+                 ? SolveStatus::kTimeLimit
+                 : SolveStatus::kMaxIterations;
+    case ceres::FAILURE:
+    case ceres::USER_FAILURE:
+      return SolveStatus::kFailed;
+  }
+  return SolveStatus::kFailed;
+}
+
+}  // namespace
+
+bool SolveLevel(const ProblemBuilder& builder,
+                const ProblemConfig& config,
+                const SolverOptions& options,
+                DeformationState* state,
+                SolveSummary* summary) {
+  LevelSummary level;
+  Timer timer;
+  const BuiltProblem built = builder.Build(config, state);
+  level.build_time_s = timer.Seconds();
+  level.num_variable_nodes = built.num_variable_nodes;
+  if (built.num_variable_nodes == 0 && !built.camera_variable) {
+    summary->status = SolveStatus::kConverged;
+    summary->message = "nothing to move";
+    summary->levels.push_back(level);
+    return true;
+  }
+
+  ceres::Solver::Options ceres_options = CeresOptions(options);
+  StopCallback stop(options.should_stop);
+  if (options.should_stop) ceres_options.callbacks.push_back(&stop);
+  const ScopedSerialLinearAlgebra serial;
+  ceres::Solver::Summary ceres_summary;
+  timer.Restart();
+  ceres::Solve(ceres_options, built.problem.get(), &ceres_summary);
+  level.solve_time_s = timer.Seconds();
+  level.iterations = static_cast<int>(ceres_summary.iterations.size());
+  level.initial_cost = ceres_summary.initial_cost;
+  level.final_cost = ceres_summary.final_cost;
+  summary->levels.push_back(level);
+  summary->status = stop.stopped() ? SolveStatus::kInterrupted : StatusOf(ceres_summary, options);
+  summary->message = ceres_summary.message;
+  return summary->status != SolveStatus::kFailed;
+}
+
+}  // namespace ceres_ed

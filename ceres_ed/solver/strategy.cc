@@ -1,0 +1,136 @@
+#include "ceres_ed/solver/strategy.h"
+
+#include <ceres_ed/solver/level_solver.h>
+#include <ceres_ed/util/timer.h>
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace ceres_ed {
+namespace {
+
+// Every residual and every node at once: the reference for the others.
+class BatchStrategy final : public Strategy {
+ public:
+  SolveSummary Solve(const ProblemBuilder& builder,
+                     const SolverOptions& options,
+                     DeformationState* state) const override {
+    SolveSummary summary;
+    summary.initial_energy = builder.Evaluate(*state).Total();
+    SolveLevel(builder,
+               FullConfig(builder.graph().num_nodes(), builder.has_camera()),
+               options,
+               state,
+               &summary);
+    summary.final_energy = builder.Evaluate(*state).Total();
+    return summary;
+  }
+};
+
+// The two steps of the paper: camera and PR nodes (Eq. 14), then PI nodes (Eq. 15).
+class TwoLevelStrategy final : public Strategy {
+ public:
+  TwoLevelStrategy(int rings, SeamEdges seam_edges) : rings_(rings), seam_edges_(seam_edges) {}
+
+  SolveSummary Solve(const ProblemBuilder& builder,
+                     const SolverOptions& options,
+                     DeformationState* state) const override {
+    SolveSummary summary;
+    summary.initial_energy = builder.Evaluate(*state).Total();
+    summary.final_energy = summary.initial_energy;
+    const Timer timer;
+    const std::vector<char> point_relevant = builder.PointRelevantNodes();
+    const ProblemConfig level_one =
+        LevelOneConfig(builder.graph(), point_relevant, builder.has_camera(), seam_edges_, rings_);
+    if (!SolveLevel(builder, level_one, options, state, &summary)) return summary;
+
+    // PI nodes follow even when Level I ran out of time: a seam left torn would be no usable state.
+    // The caller's stop is obeyed, time is only cut to what is left.
+    const SolveStatus level_one_status = summary.status;
+    const std::string level_one_message = summary.message;
+    SolverOptions level_two_options = options;
+    constexpr double kLeastTime = 1e-3;
+    level_two_options.time_limit_s = std::max(kLeastTime, options.time_limit_s - timer.Seconds());
+    SolveLevel(builder, LevelTwoConfig(point_relevant), level_two_options, state, &summary);
+    if (level_one_status != SolveStatus::kConverged) {
+      summary.status = level_one_status;
+      summary.message = level_one_message;
+    }
+    summary.final_energy = builder.Evaluate(*state).Total();
+    return summary;
+  }
+
+ private:
+  int rings_;
+  SeamEdges seam_edges_;
+};
+
+template <typename T>
+bool Require(bool holds, const char* option, T value, const char* expected, std::string* error) {
+  if (holds) return true;
+  std::ostringstream message;
+  message << option << " is " << value << ", expected " << expected;
+  *error = message.str();
+  return false;
+}
+
+}  // namespace
+
+bool SolverOptions::IsValid(std::string* error) const {
+  return Require(max_iterations >= 0, "max_iterations", max_iterations, ">= 0", error) &&
+         Require(
+             function_tolerance >= 0.0, "function_tolerance", function_tolerance, ">= 0", error) &&
+         Require(
+             gradient_tolerance >= 0.0, "gradient_tolerance", gradient_tolerance, ">= 0", error) &&
+         Require(parameter_tolerance >= 0.0,
+                 "parameter_tolerance",
+                 parameter_tolerance,
+                 ">= 0",
+                 error) &&
+         Require(initial_trust_region_radius > 0.0,
+                 "initial_trust_region_radius",
+                 initial_trust_region_radius,
+                 "> 0",
+                 error) &&
+         Require(num_threads >= 1, "num_threads", num_threads, ">= 1", error) &&
+         Require(time_limit_s > 0.0, "time_limit_s", time_limit_s, "> 0 seconds", error);
+}
+
+bool StrategyOptions::IsValid(std::string* error) const {
+  return Require(rings >= 0, "rings", rings, ">= 0", error);
+}
+
+std::string SolveStatusName(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kFailed:
+      return "failed";
+    case SolveStatus::kMaxIterations:
+      return "max_iterations";
+    case SolveStatus::kTimeLimit:
+      return "time_limit";
+    case SolveStatus::kInterrupted:
+      return "interrupted";
+    case SolveStatus::kConverged:
+      return "converged";
+  }
+  return "failed";
+}
+
+int SolveSummary::TotalIterations() const {
+  int total = 0;
+  for (const LevelSummary& level : levels) total += level.iterations;
+  return total;
+}
+
+std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options) {
+  switch (options.mode) {
+    case SolveMode::kBatch:
+      return std::make_unique<BatchStrategy>();
+    case SolveMode::kTwoLevel:
+      return std::make_unique<TwoLevelStrategy>(options.rings, options.seam_edges);
+  }
+  LOG(FATAL) << "unknown mode";
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,98 @@
+// How a problem is solved: batch, two-level, and what else shares their interface.
+#ifndef CERES_ED_SOLVER_STRATEGY_H_
+#define CERES_ED_SOLVER_STRATEGY_H_
+
+#include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/solver/linear_algebra_backend.h>
+#include <ceres_ed/util/status.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace ceres_ed {
+
+// Limits and tolerances of one solve; the defaults converge a problem in normalised units.
+struct SolverOptions {
+  // Of each level, >= 0.
+  int max_iterations = 50;
+  // Relative change of the cost at which a level is converged, >= 0.
+  double function_tolerance = 1e-6;
+  // Largest gradient entry at which a level is converged, >= 0.
+  double gradient_tolerance = 1e-10;
+  // Relative size of a step at which a level is converged, >= 0.
+  double parameter_tolerance = 1e-8;
+  // Levenberg-Marquardt damping is 1 / radius at the start, > 0. Large: nearly Gauss-Newton.
+  double initial_trust_region_radius = 1e4;
+  // Threads of residual and Jacobian evaluation, >= 1. The result doesn't depend on it.
+  int num_threads = 1;
+  // Wall time of the whole solve, seconds, > 0.
+  double time_limit_s = 1e9;
+  // Asked after every iteration; true ends the solve with the best state so far.
+  std::function<bool()> should_stop;
+
+  // False, with the option and what was expected in `error`, when a value is out of range.
+  bool IsValid(std::string* error) const;
+};
+
+enum class SolveStatus { kFailed, kMaxIterations, kTimeLimit, kInterrupted, kConverged };
+
+// The contract's name of a status: converged, max_iterations, time_limit, interrupted, failed.
+std::string SolveStatusName(SolveStatus status);
+
+// What one level did.
+struct LevelSummary {
+  int num_variable_nodes = 0;
+  int iterations = 0;
+  double initial_cost = 0.0;
+  double final_cost = 0.0;
+  double build_time_s = 0.0;
+  double solve_time_s = 0.0;
+};
+
+// The outcome of a solve. It starts out failed.
+struct SolveSummary {
+  SolveStatus status = SolveStatus::kFailed;
+  std::string message = "not solved";
+  // Of the full problem (all residuals), before and after.
+  double initial_energy = 0.0;
+  double final_energy = 0.0;
+  // In the order in which they were solved: one of batch, or Level I and Level II.
+  std::vector<LevelSummary> levels;
+
+  // False when the state is what it was before the solve.
+  bool IsUsable() const { return status != SolveStatus::kFailed; }
+  int TotalIterations() const;
+};
+
+// A way to solve. Stateless: one object serves any number of problems.
+class Strategy {
+ public:
+  virtual ~Strategy() = default;
+
+  // Moves `state` to a lower energy of `builder`'s problem. When it fails, `state` is unchanged.
+  virtual SolveSummary Solve(const ProblemBuilder& builder,
+                             const SolverOptions& options,
+                             DeformationState* state) const = 0;
+};
+
+enum class SolveMode { kBatch, kTwoLevel };
+
+// Which strategy, and how it treats the seam.
+struct StrategyOptions {
+  SolveMode mode = SolveMode::kBatch;
+  // Rings of PI nodes that Level I moves too, >= 0.
+  int rings = 2;
+  SeamEdges seam_edges = SeamEdges::kKeep;
+
+  bool IsValid(std::string* error) const;
+};
+
+// The strategy of valid options.
+std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SOLVER_STRATEGY_H_
