@@ -1,0 +1,163 @@
+// Fits one surface to another, to landmarks, or to both.
+#ifndef CERES_ED_REGISTRATION_FIT_H_
+#define CERES_ED_REGISTRATION_FIT_H_
+
+#include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/energy/energy_spec.h>
+#include <ceres_ed/geometry/point_cloud.h>
+#include <ceres_ed/geometry/similarity.h>
+#include <ceres_ed/graph/graph_builder.h>
+#include <ceres_ed/graph/warp.h>
+#include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/registration/matching.h>
+#include <ceres_ed/registration/rigid_registration.h>
+#include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/util/status.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// A source point and the place that it goes to.
+struct PointConstraint {
+  // Index into FitInput::source.
+  int point = -1;
+  // In the target frame and unit.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
+// What is fitted to what. A fit needs a target or landmarks.
+struct FitInput {
+  PointCloud source;
+  // Empty: landmarks alone.
+  PointCloud target;
+  std::vector<PointConstraint> landmarks;
+  // Source points that stay where they are. They settle the frame: there is no rigid stage then.
+  std::vector<int> fixed_points;
+};
+
+// Weights of the objective (Eq. 3), >= 0. Each energy is a mean over its residuals, so that a
+// weight means the same at any scale and at any density of points and nodes: distances count in
+// hundredths of the source's diagonal, E_reg relative to the node spacing.
+struct FitWeights {
+  double rotation = 1.0;
+  double regularization = 1.0;
+  double data = 1.0;
+  double landmark = 10.0;
+  double fixed = 1e4;
+  // Share of the data weight that goes to point-to-point instead of point-to-plane, in [0, 1].
+  double point_to_point_share = 0.1;
+};
+
+// From stiff to soft: E_rot and E_reg start at `initial_stiffness` times their weights and come
+// down to the weights themselves in equal ratios.
+struct FitSchedule {
+  // >= 1.
+  double initial_stiffness = 1000.0;
+  // Steps of stiffness, >= 1.
+  int steps = 8;
+  // Rounds of matching and solving in each step, >= 1; fewer where the surface stands still.
+  int max_rounds = 6;
+  // Mean motion of the source in a round, as a fraction of its diagonal, that counts as standing
+  // still, > 0.
+  double tolerance = 2e-4;
+  // Iterations of the solver in a round, >= 1.
+  int solver_iterations = 2;
+};
+
+struct FitProgress {
+  // "rigid", "fit".
+  std::string stage;
+  // In [0, 1].
+  double fraction = 0.0;
+  int inliers = 0;
+  // Of the inliers, in the target's unit.
+  double rms_plane = 0.0;
+  double energy = 0.0;
+};
+
+struct FitOptions {
+  StrategyOptions strategy;
+  // node_spacing is in the source's unit; 0 = automatic.
+  GraphOptions graph;
+  FitWeights weights;
+  FitSchedule schedule;
+  // Type of the data loss; its width follows the spread of the residuals, this multiple of their
+  // robust standard deviation, > 0.
+  LossType loss = LossType::kWelsch;
+  double loss_width = 3.0;
+  // max_distance is in the target's unit.
+  MatchingOptions matching;
+  // Points of each surface that are matched, >= 10.
+  int max_samples = 4000;
+  bool rigid_first = true;
+  RigidOptions rigid;
+  // More energies, by name; means over their residuals as the built-in ones.
+  std::vector<EnergySpec> extra_energies;
+  // The result doesn't depend on it, >= 1.
+  int num_threads = 1;
+  // Wall time of the whole fit, seconds, > 0.
+  double time_limit_s = 1e9;
+  // Asked often; true ends the fit with the best state so far.
+  std::function<bool()> should_stop;
+  std::function<void(const FitProgress&)> on_progress;
+
+  bool IsValid(std::string* error) const;
+};
+
+// Seconds.
+struct FitTimes {
+  double prepare = 0.0;
+  double rigid = 0.0;
+  double graph = 0.0;
+  double associate = 0.0;
+  double build = 0.0;
+  double solve = 0.0;
+  double level1 = 0.0;
+  double level2 = 0.0;
+};
+
+// The outcome of a fit. It starts out failed.
+struct FitResult {
+  SolveStatus status = SolveStatus::kFailed;
+  std::string message = "not fitted";
+  // In the source frame; takes any cloud there to the target frame.
+  Warp warp;
+  // The binding of the source's points to the warp's nodes.
+  Skinning skinning;
+  // The source in the target frame and unit.
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+  Similarity rigid;
+  // 1 for nodes that an observation touched in the last round.
+  std::vector<char> point_relevant;
+  // Of the last round, without units but for rms (target's unit).
+  Matches matches;
+  EnergySummary initial_energy;
+  EnergySummary final_energy;
+  int outer_iterations = 0;
+  int solver_iterations = 0;
+  // Largest distance of a fixed point from its place, target's unit; 0 where there are none.
+  double max_fixed_error = 0.0;
+  FitTimes times;
+  std::vector<std::string> warnings;
+
+  bool IsUsable() const { return status != SolveStatus::kFailed; }
+};
+
+// Fits `input`. Error: an input that can't be used, an unknown energy, bad options; the sentence
+// says what was expected. A solve that fails is a result with status kFailed.
+//
+// The gauge: there is no camera in a fit. The rigid part is found first and held; what the nodes do
+// is relative to it. Parts that nothing observes follow E_rot and E_reg.
+StatusOr<FitResult> Fit(const FitInput& input,
+                        const FitOptions& options,
+                        const EnergyRegistry& registry);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_REGISTRATION_FIT_H_

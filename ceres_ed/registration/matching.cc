@@ -1,0 +1,145 @@
+#include "ceres_ed/registration/matching.h"
+
+#include <ceres_ed/geometry/kd_tree.h>
+#include <ceres_ed/util/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace ceres_ed {
+namespace {
+
+// The normal of a consistent median: 1.4826 median |x| estimates sigma of a Gaussian.
+constexpr double kMadToSigma = 1.4826;
+
+// A pair before it is believed.
+struct Candidate {
+  Correspondence match;
+  double distance = std::numeric_limits<double>::infinity();
+  bool plausible = false;
+};
+
+double NormalAgreement(const Eigen::Vector3d& a, const Eigen::Vector3d& b, bool oriented) {
+  const double cosine = a.dot(b);
+  return oriented ? cosine : std::abs(cosine);
+}
+
+bool AreOriented(const Surface& a, const Surface& b) {
+  return a.cloud().normals_oriented && b.cloud().normals_oriented;
+}
+
+void MatchForward(const MovedSource& source,
+                  const std::vector<int>& samples,
+                  const Surface& target,
+                  const MatchingOptions& options,
+                  std::vector<Candidate>* candidates) {
+  const double min_cosine = std::cos(options.max_angle_deg * M_PI / 180.0);
+  const bool oriented = AreOriented(*source.rest, target);
+  ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const int point = samples[i];
+      const SurfaceHit hit = target.index().Closest((*source.points)[point], options.max_distance);
+      if (!hit.found()) continue;
+      Candidate& candidate = (*candidates)[i];
+      const Eigen::Vector3d normal = target.NormalAt(hit);
+      candidate.match = {
+          point, hit.position, normal, source.rest->relative_areas()[point] / samples.size()};
+      candidate.distance = std::sqrt(hit.squared_distance);
+      candidate.plausible =
+          !hit.on_border &&
+          NormalAgreement((*source.normals)[point], normal, oriented) >= min_cosine;
+    }
+  });
+}
+
+void MatchBackward(const MovedSource& source,
+                   const Surface& target,
+                   const std::vector<int>& samples,
+                   const MatchingOptions& options,
+                   Candidate* candidates) {
+  if (samples.empty()) return;
+  const double min_cosine = std::cos(options.max_angle_deg * M_PI / 180.0);
+  const bool oriented = AreOriented(*source.rest, target);
+  const KdTree tree(*source.points);
+  ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) {
+      const Eigen::Vector3d& position = target.cloud().points[samples[i]];
+      const Eigen::Vector3d& normal = target.cloud().normals[samples[i]];
+      const Neighbor nearest = tree.NearestWithin(position, options.max_distance);
+      if (!nearest.found()) continue;
+      Candidate& candidate = candidates[i];
+      candidate.match = {
+          nearest.index, position, normal, target.relative_areas()[samples[i]] / samples.size()};
+      candidate.distance = std::sqrt(nearest.squared_distance);
+      candidate.plausible =
+          source.rest->topology().is_border[nearest.index] == 0 &&
+          NormalAgreement((*source.normals)[nearest.index], normal, oriented) >= min_cosine;
+    }
+  });
+}
+
+double MedianDistance(const std::vector<Candidate>& candidates) {
+  std::vector<double> distances;
+  distances.reserve(candidates.size());
+  for (const Candidate& candidate : candidates) {
+    if (candidate.plausible) distances.push_back(candidate.distance);
+  }
+  if (distances.empty()) return 0.0;
+  const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+}  // namespace
+
+bool MatchingOptions::IsValid(std::string* error) const {
+  std::ostringstream message;
+  if (!(max_distance > 0.0)) {
+    message << "max_distance is " << max_distance << ", expected > 0";
+  } else if (!(max_angle_deg > 0.0 && max_angle_deg <= 180.0)) {
+    message << "max_angle_deg is " << max_angle_deg << ", expected in (0, 180]";
+  } else if (!(max_deviations > 0.0)) {
+    message << "max_deviations is " << max_deviations << ", expected > 0";
+  } else if (!(resolution >= 0.0)) {
+    message << "resolution is " << resolution << ", expected >= 0";
+  } else if (num_threads < 1) {
+    message << "num_threads is " << num_threads << ", expected >= 1";
+  }
+  *error = message.str();
+  return error->empty();
+}
+
+Matches MatchBothWays(const MovedSource& source,
+                      const std::vector<int>& source_samples,
+                      const Surface& target,
+                      const std::vector<int>& target_samples,
+                      const MatchingOptions& options) {
+  std::vector<Candidate> candidates(source_samples.size() + target_samples.size());
+  MatchForward(source, source_samples, target, options, &candidates);
+  MatchBackward(source, target, target_samples, options, candidates.data() + source_samples.size());
+
+  Matches matches;
+  matches.robust_distance = kMadToSigma * MedianDistance(candidates);
+  const double limit =
+      std::max(options.resolution, options.max_deviations * matches.robust_distance);
+  double sum_plane = 0.0;
+  double sum_point = 0.0;
+  for (const Candidate& candidate : candidates) {
+    if (candidate.match.point < 0) continue;
+    ++matches.candidates;
+    if (!candidate.plausible || candidate.distance > limit) continue;
+    matches.correspondences.push_back(candidate.match);
+    const Eigen::Vector3d gap = (*source.points)[candidate.match.point] - candidate.match.target;
+    sum_plane += std::pow(gap.dot(candidate.match.normal), 2);
+    sum_point += gap.squaredNorm();
+  }
+  matches.inliers = static_cast<int>(matches.correspondences.size());
+  if (matches.inliers > 0) {
+    matches.rms_plane = std::sqrt(sum_plane / matches.inliers);
+    matches.rms_point = std::sqrt(sum_point / matches.inliers);
+  }
+  return matches;
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,65 @@
+// Closest-point correspondences between a moving source and a target, both ways.
+#ifndef CERES_ED_REGISTRATION_MATCHING_H_
+#define CERES_ED_REGISTRATION_MATCHING_H_
+
+#include <ceres_ed/energy/energy.h>
+#include <ceres_ed/registration/surface.h>
+
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// Which pairs are believed.
+struct MatchingOptions {
+  // No pair farther apart than this, > 0, in the unit of the surfaces.
+  double max_distance = std::numeric_limits<double>::infinity();
+  // No pair whose normals differ by more, in (0, 180] degrees.
+  double max_angle_deg = 60.0;
+  // No pair farther apart than this multiple of the robust standard deviation of all distances
+  // (1.4826 times their median), > 0.
+  double max_deviations = 4.0;
+  // Pairs this near are kept whatever the deviations say, >= 0: the resolution of the surfaces.
+  double resolution = 0.0;
+  // The result doesn't depend on it, >= 1.
+  int num_threads = 1;
+
+  bool IsValid(std::string* error) const;
+};
+
+// A moving source: the points of a surface as they are now.
+struct MovedSource {
+  const Surface* rest = nullptr;
+  // One a point of `rest`.
+  const std::vector<Eigen::Vector3d>* points = nullptr;
+  const std::vector<Eigen::Vector3d>* normals = nullptr;
+};
+
+// What a matching found.
+struct Matches {
+  std::vector<Correspondence> correspondences;
+  // Pairs that had a closest point at all, and those that were believed.
+  int candidates = 0;
+  int inliers = 0;
+  // Root mean square point-to-plane and point-to-point distance of the inliers.
+  double rms_plane = 0.0;
+  double rms_point = 0.0;
+  // 1.4826 times the median point-to-point distance of the candidates.
+  double robust_distance = 0.0;
+};
+
+// Pairs each of `source_samples` with its closest point on the target, and each of `target_samples`
+// with the source point that is closest to it. A pair is rejected by distance, by the angle between
+// the normals, and where the closest point lies on the border of its surface (the other side goes
+// on where this one ends). Weights are relative areas; those of each direction sum to at most 1.
+Matches MatchBothWays(const MovedSource& source,
+                      const std::vector<int>& source_samples,
+                      const Surface& target,
+                      const std::vector<int>& target_samples,
+                      const MatchingOptions& options);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_REGISTRATION_MATCHING_H_

@@ -1,0 +1,183 @@
+#include "ceres_ed/registration/nonrigid_loop.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+class NonrigidLoop {
+ public:
+  NonrigidLoop(const Surface& source,
+               const Surface* target,
+               const BuiltGraph& graph,
+               const FitOptions& options,
+               const Timer& clock,
+               FitProblem* problem,
+               DeformationState* state,
+               FitResult* result)
+      : source_(source),
+        target_(target),
+        graph_(graph),
+        options_(options),
+        clock_(clock),
+        problem_(problem),
+        state_(state),
+        result_(result),
+        strategy_(MakeStrategy(options.strategy)) {}
+
+  void Run();
+
+ private:
+  enum class RoundOutcome { kMoving, kStill, kStopped };
+
+  RoundOutcome RunRound(int max_iterations);
+  void Match();
+  SolveSummary Solve(int max_iterations);
+  double MeanMotion(const std::vector<Eigen::Vector3d>& before) const;
+  bool Stopped();
+  void Report(double fraction) const;
+
+  const Surface& source_;
+  const Surface* target_;
+  const BuiltGraph& graph_;
+  const FitOptions& options_;
+  const Timer& clock_;
+  FitProblem* problem_;
+  DeformationState* state_;
+  FitResult* result_;
+  std::unique_ptr<Strategy> strategy_;
+  std::vector<int> source_samples_;
+  std::vector<int> target_samples_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<Eigen::Vector3d> normals_;
+  double energy_ = 0.0;
+};
+
+// True, with the reason in the result, when the fit has to end now.
+bool NonrigidLoop::Stopped() {
+  if (options_.should_stop && options_.should_stop()) {
+    result_->status = SolveStatus::kInterrupted;
+    result_->message = "interrupted; best state so far";
+    return true;
+  }
+  if (clock_.Seconds() >= options_.time_limit_s) {
+    result_->status = SolveStatus::kTimeLimit;
+    result_->message = "time limit reached; best state so far";
+    return true;
+  }
+  return false;
+}
+
+void NonrigidLoop::Report(double fraction) const {
+  if (!options_.on_progress) return;
+  options_.on_progress(
+      {"fit", fraction, result_->matches.inliers, result_->matches.rms_plane, energy_});
+}
+
+double NonrigidLoop::MeanMotion(const std::vector<Eigen::Vector3d>& before) const {
+  double sum = 0.0;
+  for (const int point : source_samples_) sum += (points_[point] - before[point]).norm();
+  return source_samples_.empty() ? 0.0 : sum / static_cast<double>(source_samples_.size());
+}
+
+void NonrigidLoop::Match() {
+  const Timer timer;
+  WarpNormals(*state_, graph_.skinning, source_.cloud().normals, options_.num_threads, &normals_);
+  result_->matches = MatchBothWays({&source_, &points_, &normals_},
+                                   source_samples_,
+                                   *target_,
+                                   target_samples_,
+                                   options_.matching);
+  const double width = options_.loss_width *
+                       std::max(result_->matches.robust_distance, options_.matching.resolution);
+  problem_->SetCorrespondences(result_->matches.correspondences, std::max(width, 1e-12));
+  result_->times.associate += timer.Seconds();
+}
+
+SolveSummary NonrigidLoop::Solve(int max_iterations) {
+  SolverOptions options;
+  options.max_iterations = max_iterations;
+  options.num_threads = options_.num_threads;
+  options.time_limit_s = std::max(1e-3, options_.time_limit_s - clock_.Seconds());
+  options.should_stop = options_.should_stop;
+  const SolveSummary summary = strategy_->Solve(problem_->builder(), options, state_);
+  for (std::size_t i = 0; i < summary.levels.size(); ++i) {
+    const LevelSummary& level = summary.levels[i];
+    result_->times.build += level.build_time_s;
+    result_->times.solve += level.solve_time_s;
+    (i == 0 ? result_->times.level1 : result_->times.level2) += level.solve_time_s;
+  }
+  result_->solver_iterations += summary.TotalIterations();
+  energy_ = summary.final_energy;
+  return summary;
+}
+
+NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
+  if (target_ != nullptr) Match();
+  if (result_->outer_iterations == 0) {
+    result_->initial_energy = problem_->builder().Evaluate(*state_);
+  }
+  const SolveSummary summary = Solve(max_iterations);
+  ++result_->outer_iterations;
+  if (!summary.IsUsable()) {
+    result_->status = SolveStatus::kFailed;
+    result_->message = summary.message;
+    return RoundOutcome::kStopped;
+  }
+  const std::vector<Eigen::Vector3d> before = points_;
+  WarpPoints(graph_.graph,
+             *state_,
+             graph_.skinning,
+             source_.cloud().points,
+             options_.num_threads,
+             &points_);
+  if (Stopped()) return RoundOutcome::kStopped;
+  return MeanMotion(before) < options_.schedule.tolerance ? RoundOutcome::kStill
+                                                          : RoundOutcome::kMoving;
+}
+
+void NonrigidLoop::Run() {
+  const FitSchedule& schedule = options_.schedule;
+  source_samples_ = SamplePoints(source_, options_.max_samples);
+  if (target_ != nullptr) target_samples_ = SamplePoints(*target_, options_.max_samples);
+  WarpPoints(graph_.graph,
+             *state_,
+             graph_.skinning,
+             source_.cloud().points,
+             options_.num_threads,
+             &points_);
+  RoundOutcome outcome = RoundOutcome::kMoving;
+  for (int step = 0; step < schedule.steps && outcome != RoundOutcome::kStopped; ++step) {
+    const double progress = schedule.steps > 1 ? double(step) / (schedule.steps - 1) : 1.0;
+    problem_->SetStiffness(std::pow(schedule.initial_stiffness, 1.0 - progress));
+    for (int round = 0; round < schedule.max_rounds; ++round) {
+      outcome = RunRound(schedule.solver_iterations);
+      Report((step + double(round + 1) / schedule.max_rounds) / schedule.steps);
+      if (outcome != RoundOutcome::kMoving) break;
+    }
+  }
+  if (outcome != RoundOutcome::kStopped) {
+    const bool still = outcome == RoundOutcome::kStill;
+    result_->status = still ? SolveStatus::kConverged : SolveStatus::kMaxIterations;
+    result_->message = still ? "the surface stands still" : "rounds used up while still moving";
+  }
+  result_->point_relevant = problem_->builder().PointRelevantNodes();
+  result_->final_energy = problem_->builder().Evaluate(*state_);
+}
+
+}  // namespace
+
+void RunNonrigidLoop(const Surface& source,
+                     const Surface* target,
+                     const BuiltGraph& graph,
+                     const FitOptions& options,
+                     const Timer& clock,
+                     FitProblem* problem,
+                     DeformationState* state,
+                     FitResult* result) {
+  NonrigidLoop(source, target, graph, options, clock, problem, state, result).Run();
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,293 @@
+#include "ceres_ed/registration/rigid_registration.h"
+
+#include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/util/parallel.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+namespace ceres_ed {
+namespace {
+
+constexpr int kCoarseSamples = 300;
+constexpr int kFineSamples = 1500;
+constexpr int kCoarseIterations = 25;
+constexpr int kFineIterations = 40;
+
+// A pair in the target frame: where the source point is, and the plane that it should be on.
+struct PlanePair {
+  Eigen::Vector3d moved;
+  Eigen::Vector3d target;
+  Eigen::Vector3d normal;
+  double squared_distance = 0.0;
+  bool agrees = false;
+  bool on_border = false;
+  bool found = false;
+};
+
+class RigidAligner {
+ public:
+  RigidAligner(const Surface& source, const Surface& target, const RigidOptions& options)
+      : source_(source),
+        target_(target),
+        options_(options),
+        min_cosine_(std::cos(options.max_angle_deg * M_PI / 180.0)),
+        oriented_(source.cloud().normals_oriented && target.cloud().normals_oriented),
+        width_(options.score_width * Diagonal(target.cloud().points)) {}
+
+  // Pairs of both directions under a pose; a fixed number, found or not.
+  std::vector<PlanePair> Pairs(const Similarity& pose, int samples) const;
+  double Score(const Similarity& pose) const;
+  Similarity Refine(Similarity pose, int samples, int iterations) const;
+
+ private:
+  bool Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const;
+
+  const Surface& source_;
+  const Surface& target_;
+  const RigidOptions& options_;
+  double min_cosine_;
+  bool oriented_;
+  double width_;
+};
+
+std::vector<PlanePair> RigidAligner::Pairs(const Similarity& pose, int samples) const {
+  const std::vector<int> source_samples = SamplePoints(source_, samples);
+  const std::vector<int> target_samples = SamplePoints(target_, samples);
+  const Similarity source_from_target = pose.Inverse();
+  const int num_forward = static_cast<int>(source_samples.size());
+  std::vector<PlanePair> pairs(source_samples.size() + target_samples.size());
+  const auto agreement = [&](const Eigen::Vector3d& source_normal, const Eigen::Vector3d& n) {
+    const double cosine = (pose.rotation * source_normal).dot(n);
+    return (oriented_ ? cosine : std::abs(cosine)) >= min_cosine_;
+  };
+  const auto match = [&](int i) {
+    PlanePair& pair = pairs[i];
+    if (i < num_forward) {
+      const int point = source_samples[i];
+      pair.moved = pose * source_.cloud().points[point];
+      const SurfaceHit hit = target_.index().Closest(pair.moved);
+      if (!hit.found()) return;
+      pair.target = hit.position;
+      pair.normal = target_.NormalAt(hit);
+      pair.on_border = hit.on_border;
+      pair.agrees = agreement(source_.cloud().normals[point], pair.normal);
+    } else {
+      const int point = target_samples[i - num_forward];
+      pair.target = target_.cloud().points[point];
+      pair.normal = target_.cloud().normals[point];
+      const SurfaceHit hit = source_.index().Closest(source_from_target * pair.target);
+      if (!hit.found()) return;
+      pair.moved = pose * hit.position;
+      pair.on_border = hit.on_border;
+      pair.agrees = agreement(source_.NormalAt(hit), pair.normal);
+    }
+    pair.squared_distance = (pair.moved - pair.target).squaredNorm();
+    pair.found = true;
+  };
+  ParallelFor(options_.num_threads, static_cast<int>(pairs.size()), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) match(i);
+  });
+  return pairs;
+}
+
+double RigidAligner::Score(const Similarity& pose) const {
+  const std::vector<PlanePair> pairs = Pairs(pose, kCoarseSamples);
+  double sum = 0.0;
+  for (const PlanePair& pair : pairs) {
+    sum += pair.found && pair.agrees
+               ? pair.squared_distance / (pair.squared_distance + width_ * width_)
+               : 1.0;
+  }
+  return pairs.empty() ? 1.0 : sum / static_cast<double>(pairs.size());
+}
+
+// One Gauss-Newton step of the reweighted point-to-plane sum; false when it can't be taken.
+bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const PlanePair& pair : pairs) {
+    if (!pair.found || !pair.agrees || pair.on_border) continue;
+    center += pair.moved;
+    ++count;
+  }
+  if (count < 6) return false;
+  center /= count;
+  using Vector7 = Eigen::Matrix<double, 7, 1>;
+  Eigen::Matrix<double, 7, 7> H = Eigen::Matrix<double, 7, 7>::Zero();
+  Vector7 b = Vector7::Zero();
+  double spread = 0.0;
+  for (const PlanePair& pair : pairs) {
+    if (!pair.found || !pair.agrees || pair.on_border) continue;
+    const Eigen::Vector3d arm = pair.moved - center;
+    const double r = pair.normal.dot(pair.moved - pair.target);
+    const double ratio = sigma * sigma / (sigma * sigma + pair.squared_distance);
+    Vector7 J;
+    J << arm.cross(pair.normal), pair.normal, pair.normal.dot(arm);
+    H += ratio * ratio * J * J.transpose();
+    b -= ratio * ratio * r * J;
+    spread += ratio * ratio * arm.squaredNorm();
+  }
+  // A symmetric body leaves directions free: a little damping keeps them where they are.
+  constexpr double kDamping = 1e-6;
+  const double size = std::max(spread, 1e-300);
+  H.diagonal().head<3>().array() += kDamping * size;
+  H.diagonal().segment<3>(3).array() += kDamping * count;
+  H(6, 6) += options_.with_scale ? kDamping * size : 1e12 * size;
+  const Vector7 delta = H.ldlt().solve(b);
+  if (!delta.allFinite()) return false;
+  const double angle = delta.head<3>().norm();
+  Similarity step;
+  if (angle > 0.0) {
+    step.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d(delta.head<3>() / angle));
+  }
+  if (options_.with_scale) step.scale = std::exp(std::clamp(delta[6], -0.2, 0.2));
+  step.translation = center + delta.segment<3>(3) - step.scale * (step.rotation * center);
+  *pose = step * *pose;
+  return true;
+}
+
+Similarity RigidAligner::Refine(Similarity pose, int samples, int iterations) const {
+  constexpr double kConverged = 1e-7;
+  const double floor = 1e-3 * width_;
+  for (int i = 0; i < iterations; ++i) {
+    const std::vector<PlanePair> pairs = Pairs(pose, samples);
+    std::vector<double> squared;
+    for (const PlanePair& pair : pairs) {
+      if (pair.found && pair.agrees && !pair.on_border) squared.push_back(pair.squared_distance);
+    }
+    if (squared.empty()) return pose;
+    const auto middle = squared.begin() + static_cast<long>(squared.size() / 2);
+    std::nth_element(squared.begin(), middle, squared.end());
+    const double sigma = std::max(floor, 2.0 * 1.4826 * std::sqrt(*middle));
+    const Similarity before = pose;
+    if (!Step(pairs, sigma, &pose)) return before;
+    const Similarity change = pose * before.Inverse();
+    if (change.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kConverged &&
+        (pose.translation - before.translation).norm() < kConverged * width_ &&
+        std::abs(change.scale - 1.0) < kConverged) {
+      break;
+    }
+  }
+  return pose;
+}
+
+Eigen::Vector3d Centroid(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points) sum += point;
+  return sum / static_cast<double>(points.size());
+}
+
+Eigen::Matrix3d PrincipalAxes(const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::Vector3d center = Centroid(points);
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  for (const Eigen::Vector3d& point : points) {
+    covariance += (point - center) * (point - center).transpose();
+  }
+  Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
+  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
+  return axes;
+}
+
+// The 24 rotations that take a cube to itself, identity among them.
+std::vector<Eigen::Matrix3d> CubeRotations() {
+  std::vector<Eigen::Matrix3d> rotations;
+  std::array<int, 3> axes = {0, 1, 2};
+  do {
+    for (int signs = 0; signs < 8; ++signs) {
+      Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
+      for (int i = 0; i < 3; ++i) R(i, axes[i]) = (signs >> i & 1) != 0 ? -1.0 : 1.0;
+      if (R.determinant() > 0.0) rotations.push_back(R);
+    }
+  } while (std::next_permutation(axes.begin(), axes.end()));
+  return rotations;
+}
+
+// The pose that turns about the source's centroid by R and takes it to the target's.
+Similarity CenteredPose(const Eigen::Matrix3d& R,
+                        double scale,
+                        const Eigen::Vector3d& from,
+                        const Eigen::Vector3d& to) {
+  Similarity pose;
+  pose.scale = scale;
+  pose.rotation = Eigen::Quaterniond(R);
+  pose.translation = to - scale * (R * from);
+  return pose;
+}
+
+}  // namespace
+
+bool RigidOptions::IsValid(std::string* error) const {
+  std::ostringstream message;
+  if (!(max_angle_deg > 0.0 && max_angle_deg <= 180.0)) {
+    message << "max_angle_deg is " << max_angle_deg << ", expected in (0, 180]";
+  } else if (!(score_width > 0.0)) {
+    message << "score_width is " << score_width << ", expected > 0";
+  } else if (!(good_score >= 0.0 && good_score <= 1.0)) {
+    message << "good_score is " << good_score << ", expected in [0, 1]";
+  } else if (!(preference > 0.0 && preference <= 1.0)) {
+    message << "preference is " << preference << ", expected in (0, 1]";
+  } else if (num_threads < 1) {
+    message << "num_threads is " << num_threads << ", expected >= 1";
+  }
+  *error = message.str();
+  return error->empty();
+}
+
+RigidResult AlignRigid(const Surface& source,
+                       const Surface& target,
+                       const Similarity& initial,
+                       const RigidOptions& options) {
+  const RigidAligner aligner(source, target, options);
+  RigidResult result;
+  result.target_from_source = initial;
+  result.initial_score = aligner.Score(initial);
+  const auto stopped = [&] { return options.should_stop && options.should_stop(); };
+  // `handicap` < 1 makes a start prove itself against the given pose.
+  const auto try_start = [&](const Similarity& start, double handicap) {
+    if (stopped()) return;
+    const Similarity pose = aligner.Refine(start, kCoarseSamples, kCoarseIterations);
+    const double score = aligner.Score(pose);
+    if (result.starts_tried++ == 0 || score < handicap * result.score) {
+      result.target_from_source = pose;
+      result.score = score;
+    }
+  };
+  try_start(initial, 1.0);
+  const Eigen::Vector3d from = Centroid(source.cloud().points);
+  const Eigen::Vector3d to = Centroid(target.cloud().points);
+  const Eigen::Matrix3d R_initial = initial.rotation.toRotationMatrix();
+  if (result.score > options.good_score) {
+    try_start(CenteredPose(R_initial, initial.scale, from, to), options.preference);
+  }
+  if (result.score > options.good_score) {
+    const Eigen::Matrix3d source_axes = PrincipalAxes(source.cloud().points);
+    const Eigen::Matrix3d target_axes = PrincipalAxes(target.cloud().points);
+    for (const Eigen::Vector3d& signs : {Eigen::Vector3d(1, 1, 1),
+                                         Eigen::Vector3d(1, -1, -1),
+                                         Eigen::Vector3d(-1, 1, -1),
+                                         Eigen::Vector3d(-1, -1, 1)}) {
+      try_start(
+          CenteredPose(
+              target_axes * signs.asDiagonal() * source_axes.transpose(), initial.scale, from, to),
+          options.preference);
+    }
+  }
+  if (result.score > options.good_score) {
+    for (const Eigen::Matrix3d& R : CubeRotations()) {
+      try_start(CenteredPose(R * R_initial, initial.scale, from, to), options.preference);
+    }
+  }
+  result.target_from_source =
+      aligner.Refine(result.target_from_source, kFineSamples, kFineIterations);
+  result.score = aligner.Score(result.target_from_source);
+  return result;
+}
+
+}  // namespace ceres_ed

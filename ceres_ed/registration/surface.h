@@ -1,0 +1,46 @@
+// A cloud with everything that matching needs, built once.
+#ifndef CERES_ED_REGISTRATION_SURFACE_H_
+#define CERES_ED_REGISTRATION_SURFACE_H_
+
+#include <ceres_ed/geometry/closest_point.h>
+#include <ceres_ed/geometry/point_cloud.h>
+#include <ceres_ed/geometry/topology.h>
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// A mesh or bare points with normals, topology, search index and sample areas. Neither copied nor
+// moved: the index refers to the cloud.
+class Surface {
+ public:
+  // Normals are computed where the cloud has none. `cloud` isn't empty.
+  explicit Surface(PointCloud cloud, int num_threads = 1);
+  Surface(const Surface&) = delete;
+  Surface& operator=(const Surface&) = delete;
+
+  const PointCloud& cloud() const { return cloud_; }
+  const SurfaceTopology& topology() const { return topology_; }
+  const SurfaceIndex& index() const { return index_; }
+  // The area that each point stands for, relative to the mean of all points: a third of its
+  // triangles. 1 for bare points; kept in [0.1, 10].
+  const std::vector<double>& relative_areas() const { return relative_areas_; }
+  // The unit normal at a hit: corner normals blended, zero where none is known.
+  Eigen::Vector3d NormalAt(const SurfaceHit& hit) const;
+
+ private:
+  PointCloud cloud_;
+  SurfaceTopology topology_;
+  SurfaceIndex index_;
+  std::vector<double> relative_areas_;
+};
+
+// About `count` of the surface's points, evenly over the order in space; all when there are fewer.
+// Isolated vertices of a mesh are left out.
+std::vector<int> SamplePoints(const Surface& surface, int count);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_REGISTRATION_SURFACE_H_
