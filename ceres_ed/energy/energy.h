@@ -65,6 +65,19 @@ struct BlockRef {
   static BlockRef CameraTranslation() { return {Kind::kCameraTranslation, -1}; }
 };
 
+// The parameter block of `state` that `block` names.
+inline const double* BlockPointer(const DeformationState& state, const BlockRef& block) {
+  switch (block.kind) {
+    case BlockRef::Kind::kCameraRotation:
+      return state.camera_from_map.rotation.coeffs().data();
+    case BlockRef::Kind::kCameraTranslation:
+      return state.camera_from_map.translation.data();
+    case BlockRef::Kind::kNode:
+      break;
+  }
+  return state.node(block.node);
+}
+
 // A point of the map and where it was observed.
 struct Correspondence {
   // Index into EnergyContext::points.

@@ -12,18 +12,6 @@
 namespace ceres_ed {
 namespace {
 
-const double* BlockPointer(const DeformationState& state, const BlockRef& block) {
-  switch (block.kind) {
-    case BlockRef::Kind::kNode:
-      return state.node(block.node);
-    case BlockRef::Kind::kCameraRotation:
-      return state.camera_from_map.rotation.coeffs().data();
-    case BlockRef::Kind::kCameraTranslation:
-      return state.camera_from_map.translation.data();
-  }
-  LOG(FATAL) << "unknown block kind";
-}
-
 int BlockSize(const BlockRef& block) {
   switch (block.kind) {
     case BlockRef::Kind::kNode:
@@ -34,6 +22,23 @@ int BlockSize(const BlockRef& block) {
       return kTranslationSize;
   }
   LOG(FATAL) << "unknown block kind";
+}
+
+void AddCamera(const ProblemConfig& config, DeformationState* state, BuiltProblem* built) {
+  double* rotation = state->camera_from_map.rotation.coeffs().data();
+  double* translation = state->camera_from_map.translation.data();
+  if (built->problem->HasParameterBlock(rotation)) {
+    built->rotation_manifold = std::make_unique<ceres::EigenQuaternionManifold>();
+    built->problem->SetManifold(rotation, built->rotation_manifold.get());
+    if (!config.camera_variable) built->problem->SetParameterBlockConstant(rotation);
+  }
+  if (built->problem->HasParameterBlock(translation) && !config.camera_variable) {
+    built->problem->SetParameterBlockConstant(translation);
+  }
+}
+
+double* MutableBlockPointer(DeformationState* state, const BlockRef& block) {
+  return const_cast<double*>(BlockPointer(*state, block));
 }
 
 bool IsVariable(const BlockRef& block, const ProblemConfig& config) {
@@ -166,48 +171,54 @@ bool ProblemBuilder::IsIncluded(const Term& term,
   return !(crosses_seam && term.kind == EnergyKind::kPrior && config.seam_edges == SeamEdges::kCut);
 }
 
-void ProblemBuilder::AddTermToProblem(const Term& term,
-                                      const ProblemConfig& config,
-                                      DeformationState* state,
-                                      std::vector<char>* touched_nodes,
-                                      BuiltProblem* built) const {
-  // Residuals of equal weight share a loss.
-  std::map<double, ceres::LossFunction*> loss_of_weight;
-  const auto loss_for = [&](double weight) {
-    ceres::LossFunction*& loss = loss_of_weight[weight];
-    if (loss == nullptr) {
-      built->losses.push_back(std::make_unique<ceres::ScaledLoss>(
-          MakeLoss(term.loss).release(), weight, ceres::TAKE_OWNERSHIP));
-      loss = built->losses.back().get();
+std::vector<SelectedResidual> ProblemBuilder::Select(const ProblemConfig& config) const {
+  CHECK_EQ(static_cast<int>(config.variable_nodes.size()), graph_.num_nodes());
+  CHECK(has_camera_ || !config.camera_variable) << "there is no camera to vary";
+  std::vector<SelectedResidual> selected;
+  for (int t = 0; t < num_terms(); ++t) {
+    const Term& term = terms_[t];
+    for (const Residual& residual : term.residuals) {
+      if (!IsIncluded(term, residual, config)) continue;
+      selected.push_back({residual.cost.get(),
+                          &term.blocks[residual.first_block],
+                          residual.num_blocks,
+                          t,
+                          term.weight * residual.weight});
     }
-    return loss;
-  };
-  std::vector<double*> blocks;
-  for (const Residual& residual : term.residuals) {
-    if (!IsIncluded(term, residual, config)) continue;
-    blocks.clear();
-    for (int i = 0; i < residual.num_blocks; ++i) {
-      const BlockRef& block = term.blocks[residual.first_block + i];
-      blocks.push_back(const_cast<double*>(BlockPointer(*state, block)));
-      if (block.kind == BlockRef::Kind::kNode) (*touched_nodes)[block.node] = 1;
-    }
-    built->problem->AddResidualBlock(residual.cost.get(),
-                                     loss_for(term.weight * residual.weight),
-                                     blocks.data(),
-                                     residual.num_blocks);
   }
+  return selected;
 }
 
 BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState* state) const {
-  CHECK_EQ(static_cast<int>(config.variable_nodes.size()), graph_.num_nodes());
   CHECK_EQ(state->num_nodes(), graph_.num_nodes());
-  CHECK(has_camera_ || !config.camera_variable) << "there is no camera to vary";
   BuiltProblem built;
   built.problem = std::make_unique<ceres::Problem>(ProblemOptions());
   built.camera_variable = config.camera_variable;
+  // Residuals of one term and equal weight share a loss.
+  std::map<std::pair<int, double>, ceres::LossFunction*> losses;
+  const auto loss_for = [&](int term, double weight) {
+    ceres::LossFunction*& loss = losses[{term, weight}];
+    if (loss == nullptr) {
+      built.losses.push_back(std::make_unique<ceres::ScaledLoss>(
+          MakeLoss(terms_[term].loss).release(), weight, ceres::TAKE_OWNERSHIP));
+      loss = built.losses.back().get();
+    }
+    return loss;
+  };
   std::vector<char> touched_nodes(graph_.num_nodes(), 0);
-  for (const Term& term : terms_) {
-    AddTermToProblem(term, config, state, &touched_nodes, &built);
+  std::vector<double*> blocks;
+  for (const SelectedResidual& residual : Select(config)) {
+    blocks.clear();
+    for (int i = 0; i < residual.num_blocks; ++i) {
+      const BlockRef& block = residual.blocks[i];
+      blocks.push_back(MutableBlockPointer(state, block));
+      if (block.kind == BlockRef::Kind::kNode) touched_nodes[block.node] = 1;
+    }
+    // Ceres evaluates a cost function it doesn't own only through const methods.
+    built.problem->AddResidualBlock(const_cast<ceres::CostFunction*>(residual.cost),
+                                    loss_for(residual.term, residual.weight),
+                                    blocks.data(),
+                                    residual.num_blocks);
   }
   for (int j = 0; j < graph_.num_nodes(); ++j) {
     if (touched_nodes[j] == 0) continue;
@@ -217,16 +228,7 @@ BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState
       built.problem->SetParameterBlockConstant(state->node(j));
     }
   }
-  double* rotation = state->camera_from_map.rotation.coeffs().data();
-  double* translation = state->camera_from_map.translation.data();
-  if (built.problem->HasParameterBlock(rotation)) {
-    built.rotation_manifold = std::make_unique<ceres::EigenQuaternionManifold>();
-    built.problem->SetManifold(rotation, built.rotation_manifold.get());
-    if (!config.camera_variable) built.problem->SetParameterBlockConstant(rotation);
-  }
-  if (built.problem->HasParameterBlock(translation) && !config.camera_variable) {
-    built.problem->SetParameterBlockConstant(translation);
-  }
+  AddCamera(config, state, &built);
   return built;
 }
 

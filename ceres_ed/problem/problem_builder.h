@@ -46,6 +46,16 @@ struct EnergySummary {
   double Total() const;
 };
 
+// One residual block of a subproblem; what it points to belongs to the builder.
+struct SelectedResidual {
+  const ceres::CostFunction* cost = nullptr;
+  const BlockRef* blocks = nullptr;
+  int num_blocks = 0;
+  int term = -1;
+  // Weight of the term times that of the residual.
+  double weight = 1.0;
+};
+
 // Collects the residuals of energy terms once, and builds any number of Ceres problems from them.
 // The graph must outlive the builder.
 class ProblemBuilder {
@@ -71,14 +81,19 @@ class ProblemBuilder {
 
   int num_terms() const { return static_cast<int>(terms_.size()); }
   double weight(int term) const { return terms_[term].weight; }
+  const LossSpec& loss(int term) const { return terms_[term].loss; }
   // Residual blocks of a term.
   int NumResidualBlocks(int term) const;
 
   // One entry a node: nonzero where an observation residual of positive weight touches it (PR).
   std::vector<char> PointRelevantNodes() const;
 
+  // The residuals that a problem of `config` has, in the order in which they were added: those of
+  // positive weight that touch something variable, less the priors that kCut takes out at the seam.
+  std::vector<SelectedResidual> Select(const ProblemConfig& config) const;
+
   // The problem of `config` over the blocks of `state`. Blocks that residuals touch and that aren't
-  // variable are constant. Observations are never cut.
+  // variable are constant.
   BuiltProblem Build(const ProblemConfig& config, DeformationState* state) const;
 
   // The costs of all residuals at `state`, whatever a config would leave out. A residual that can't
@@ -104,11 +119,6 @@ class ProblemBuilder {
   class TermSink;
 
   bool IsIncluded(const Term& term, const Residual& residual, const ProblemConfig& config) const;
-  void AddTermToProblem(const Term& term,
-                        const ProblemConfig& config,
-                        DeformationState* state,
-                        std::vector<char>* touched_nodes,
-                        BuiltProblem* built) const;
 
   const DeformationGraph& graph_;
   const bool has_camera_;

@@ -1,5 +1,6 @@
 #include "ceres_ed/registration/fit.h"
 
+#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/registration/nonrigid_loop.h>
@@ -139,6 +140,7 @@ class Fitter {
   StatusOr<BuiltGraph> BuildUnitGraph(const Surface& source) const;
   FitOptions UnitOptions(const Surface& source, const Surface* target) const;
   void Finish(const BuiltGraph& graph, const DeformationState& state);
+  void WarnAboutReflections(const DeformationState& state);
 
   const FitInput& input_;
   const FitOptions& options_;
@@ -204,9 +206,21 @@ void Fitter::Finish(const BuiltGraph& graph, const DeformationState& state) {
     result_.max_fixed_error = std::max(
         result_.max_fixed_error, (result_.points[point] - input_.source.points[point]).norm());
   }
+  WarnAboutReflections(state);
   result_.matches.rms_plane /= unit_from_target_.scale;
   result_.matches.rms_point /= unit_from_target_.scale;
   result_.matches.robust_distance /= unit_from_target_.scale;
+}
+
+void Fitter::WarnAboutReflections(const DeformationState& state) {
+  int reflected = 0;
+  for (int j = 0; j < state.num_nodes(); ++j) {
+    if (!(NodeAffine(state.node(j)).determinant() > 0.0)) ++reflected;
+  }
+  if (reflected == 0) return;
+  result_.warnings.push_back(std::to_string(reflected) + " of " +
+                             std::to_string(state.num_nodes()) +
+                             " nodes turned inside out (det A <= 0): the surface is folded there");
 }
 
 StatusOr<FitResult> Fitter::Run() {
@@ -293,6 +307,15 @@ StatusOr<FitResult> Fit(const FitInput& input,
                         const FitOptions& options,
                         const EnergyRegistry& registry) {
   return Fitter(input, options, registry).Run();
+}
+
+StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target) {
+  FitInput input;
+  input.source = source;
+  input.target = target;
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  return Fit(input, {}, registry);
 }
 
 }  // namespace ceres_ed

@@ -89,7 +89,7 @@ struct FitOptions {
   // Type of the data loss; its width follows the spread of the residuals, this multiple of their
   // robust standard deviation, > 0.
   LossType loss = LossType::kWelsch;
-  double loss_width = 3.0;
+  double loss_width = 10.0;
   // max_distance is in the target's unit.
   MatchingOptions matching;
   // Points of each surface that are matched, >= 10.
@@ -157,6 +157,9 @@ struct FitResult {
 StatusOr<FitResult> Fit(const FitInput& input,
                         const FitOptions& options,
                         const EnergyRegistry& registry);
+
+// The same of two clouds alone, with default options and the built-in energies.
+StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target);
 
 }  // namespace ceres_ed
 

@@ -20,7 +20,7 @@ struct MatchingOptions {
   double max_angle_deg = 60.0;
   // No pair farther apart than this multiple of the robust standard deviation of all distances
   // (1.4826 times their median), > 0.
-  double max_deviations = 4.0;
+  double max_deviations = 20.0;
   // Pairs this near are kept whatever the deviations say, >= 0: the resolution of the surfaces.
   double resolution = 0.0;
   // The result doesn't depend on it, >= 1.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <sstream>
 #include <vector>
 
@@ -15,9 +16,13 @@
 namespace ceres_ed {
 namespace {
 
+// Starts are sifted: all of them roughly, the best of them better, the winner to the end.
+constexpr int kSiftSamples = 150;
+constexpr int kSiftIterations = 8;
+constexpr int kSiftKept = 5;
 constexpr int kCoarseSamples = 300;
+constexpr int kCoarseIterations = 20;
 constexpr int kFineSamples = 1500;
-constexpr int kCoarseIterations = 25;
 constexpr int kFineIterations = 40;
 
 // A pair in the target frame: where the source point is, and the plane that it should be on.
@@ -72,21 +77,21 @@ std::vector<PlanePair> RigidAligner::Pairs(const Similarity& pose, int samples) 
     if (i < num_forward) {
       const int point = source_samples[i];
       pair.moved = pose * source_.cloud().points[point];
-      const SurfaceHit hit = target_.index().Closest(pair.moved);
+      const Neighbor hit = target_.tree().Nearest(pair.moved);
       if (!hit.found()) return;
-      pair.target = hit.position;
-      pair.normal = target_.NormalAt(hit);
-      pair.on_border = hit.on_border;
+      pair.target = target_.cloud().points[hit.index];
+      pair.normal = target_.cloud().normals[hit.index];
+      pair.on_border = target_.topology().is_border[hit.index] != 0;
       pair.agrees = agreement(source_.cloud().normals[point], pair.normal);
     } else {
       const int point = target_samples[i - num_forward];
       pair.target = target_.cloud().points[point];
       pair.normal = target_.cloud().normals[point];
-      const SurfaceHit hit = source_.index().Closest(source_from_target * pair.target);
+      const Neighbor hit = source_.tree().Nearest(source_from_target * pair.target);
       if (!hit.found()) return;
-      pair.moved = pose * hit.position;
-      pair.on_border = hit.on_border;
-      pair.agrees = agreement(source_.NormalAt(hit), pair.normal);
+      pair.moved = pose * source_.cloud().points[hit.index];
+      pair.on_border = source_.topology().is_border[hit.index] != 0;
+      pair.agrees = agreement(source_.cloud().normals[hit.index], pair.normal);
     }
     pair.squared_distance = (pair.moved - pair.target).squaredNorm();
     pair.found = true;
@@ -221,6 +226,34 @@ Similarity CenteredPose(const Eigen::Matrix3d& R,
   return pose;
 }
 
+struct ScoredPose {
+  Similarity pose;
+  double score = 1.0;
+};
+
+// Centroids aligned, principal axes aligned in their four proper ways, and every turn of a cube.
+std::vector<Similarity> OtherStarts(const Surface& source,
+                                    const Surface& target,
+                                    const Similarity& initial) {
+  const Eigen::Vector3d from = Centroid(source.cloud().points);
+  const Eigen::Vector3d to = Centroid(target.cloud().points);
+  const Eigen::Matrix3d R_initial = initial.rotation.toRotationMatrix();
+  std::vector<Similarity> starts = {CenteredPose(R_initial, initial.scale, from, to)};
+  const Eigen::Matrix3d source_axes = PrincipalAxes(source.cloud().points);
+  const Eigen::Matrix3d target_axes = PrincipalAxes(target.cloud().points);
+  for (const Eigen::Vector3d& signs : {Eigen::Vector3d(1, 1, 1),
+                                       Eigen::Vector3d(1, -1, -1),
+                                       Eigen::Vector3d(-1, 1, -1),
+                                       Eigen::Vector3d(-1, -1, 1)}) {
+    const Eigen::Matrix3d R = target_axes * signs.asDiagonal() * source_axes.transpose();
+    starts.push_back(CenteredPose(R, initial.scale, from, to));
+  }
+  for (const Eigen::Matrix3d& R : CubeRotations()) {
+    starts.push_back(CenteredPose(R * R_initial, initial.scale, from, to));
+  }
+  return starts;
+}
+
 }  // namespace
 
 bool RigidOptions::IsValid(std::string* error) const {
@@ -246,46 +279,42 @@ RigidResult AlignRigid(const Surface& source,
                        const RigidOptions& options) {
   const RigidAligner aligner(source, target, options);
   RigidResult result;
-  result.target_from_source = initial;
   result.initial_score = aligner.Score(initial);
   const auto stopped = [&] { return options.should_stop && options.should_stop(); };
-  // `handicap` < 1 makes a start prove itself against the given pose.
-  const auto try_start = [&](const Similarity& start, double handicap) {
-    if (stopped()) return;
+  const auto refined = [&](const Similarity& start) {
     const Similarity pose = aligner.Refine(start, kCoarseSamples, kCoarseIterations);
-    const double score = aligner.Score(pose);
-    if (result.starts_tried++ == 0 || score < handicap * result.score) {
-      result.target_from_source = pose;
-      result.score = score;
-    }
+    return ScoredPose{pose, aligner.Score(pose)};
   };
-  try_start(initial, 1.0);
-  const Eigen::Vector3d from = Centroid(source.cloud().points);
-  const Eigen::Vector3d to = Centroid(target.cloud().points);
-  const Eigen::Matrix3d R_initial = initial.rotation.toRotationMatrix();
-  if (result.score > options.good_score) {
-    try_start(CenteredPose(R_initial, initial.scale, from, to), options.preference);
+  ScoredPose best = refined(initial);
+  result.starts_tried = 1;
+  // Every other start has to prove itself against the given pose.
+  const auto offer = [&](const ScoredPose& candidate) {
+    if (candidate.score < options.preference * best.score) best = candidate;
+  };
+  const std::vector<Similarity> starts = OtherStarts(source, target, initial);
+  if (best.score > options.good_score && !stopped()) {
+    offer(refined(starts.front()));
+    ++result.starts_tried;
   }
-  if (result.score > options.good_score) {
-    const Eigen::Matrix3d source_axes = PrincipalAxes(source.cloud().points);
-    const Eigen::Matrix3d target_axes = PrincipalAxes(target.cloud().points);
-    for (const Eigen::Vector3d& signs : {Eigen::Vector3d(1, 1, 1),
-                                         Eigen::Vector3d(1, -1, -1),
-                                         Eigen::Vector3d(-1, 1, -1),
-                                         Eigen::Vector3d(-1, -1, 1)}) {
-      try_start(
-          CenteredPose(
-              target_axes * signs.asDiagonal() * source_axes.transpose(), initial.scale, from, to),
-          options.preference);
+  if (best.score > options.good_score) {
+    std::vector<ScoredPose> sifted;
+    for (std::size_t i = 1; i < starts.size() && !stopped(); ++i) {
+      const Similarity pose = aligner.Refine(starts[i], kSiftSamples, kSiftIterations);
+      sifted.push_back({pose, aligner.Score(pose)});
+      ++result.starts_tried;
     }
-  }
-  if (result.score > options.good_score) {
-    for (const Eigen::Matrix3d& R : CubeRotations()) {
-      try_start(CenteredPose(R * R_initial, initial.scale, from, to), options.preference);
+    std::stable_sort(sifted.begin(), sifted.end(), [](const ScoredPose& a, const ScoredPose& b) {
+      return a.score < b.score;
+    });
+    if (sifted.size() > kSiftKept) sifted.resize(kSiftKept);
+    ScoredPose best_sifted{initial, std::numeric_limits<double>::infinity()};
+    for (const ScoredPose& pose : sifted) {
+      const ScoredPose candidate = stopped() ? pose : refined(pose.pose);
+      if (candidate.score < best_sifted.score) best_sifted = candidate;
     }
+    offer(best_sifted);
   }
-  result.target_from_source =
-      aligner.Refine(result.target_from_source, kFineSamples, kFineIterations);
+  result.target_from_source = aligner.Refine(best.pose, kFineSamples, kFineIterations);
   result.score = aligner.Score(result.target_from_source);
   return result;
 }

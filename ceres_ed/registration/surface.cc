@@ -40,6 +40,7 @@ Surface::Surface(PointCloud cloud, int num_threads)
     : cloud_(WithNormals(std::move(cloud), num_threads)),
       topology_(BuildTopology(cloud_)),
       index_(cloud_, topology_),
+      tree_(cloud_.points),
       relative_areas_(RelativeAreas(cloud_)) {}
 
 Eigen::Vector3d Surface::NormalAt(const SurfaceHit& hit) const {

@@ -1,6 +1,7 @@
 #include "ceres_ed/solver/strategy.h"
 
-#include <ceres_ed/solver/level_solver.h>
+#include <ceres_ed/solver/block_level_solver.h>
+#include <ceres_ed/solver/ceres_level_solver.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -13,29 +14,38 @@ namespace {
 // Every residual and every node at once: the reference for the others.
 class BatchStrategy final : public Strategy {
  public:
+  explicit BatchStrategy(LinearSolver linear_solver) : solver_(MakeLevelSolver(linear_solver)) {}
+
   SolveSummary Solve(const ProblemBuilder& builder,
                      const SolverOptions& options,
-                     DeformationState* state) const override {
+                     DeformationState* state) override {
     SolveSummary summary;
     summary.initial_energy = builder.Evaluate(*state).Total();
-    SolveLevel(builder,
-               FullConfig(builder.graph().num_nodes(), builder.has_camera()),
-               options,
-               state,
-               &summary);
+    solver_->Solve(builder,
+                   FullConfig(builder.graph().num_nodes(), builder.has_camera()),
+                   options,
+                   state,
+                   &summary);
     summary.final_energy = builder.Evaluate(*state).Total();
     return summary;
   }
+
+ private:
+  std::unique_ptr<LevelSolver> solver_;
 };
 
 // The two steps of the paper: camera and PR nodes (Eq. 14), then PI nodes (Eq. 15).
 class TwoLevelStrategy final : public Strategy {
  public:
-  TwoLevelStrategy(int rings, SeamEdges seam_edges) : rings_(rings), seam_edges_(seam_edges) {}
+  explicit TwoLevelStrategy(const StrategyOptions& options)
+      : rings_(options.rings),
+        seam_edges_(options.seam_edges),
+        level_one_(MakeLevelSolver(options.linear_solver)),
+        level_two_(MakeLevelSolver(options.linear_solver)) {}
 
   SolveSummary Solve(const ProblemBuilder& builder,
                      const SolverOptions& options,
-                     DeformationState* state) const override {
+                     DeformationState* state) override {
     SolveSummary summary;
     summary.initial_energy = builder.Evaluate(*state).Total();
     summary.final_energy = summary.initial_energy;
@@ -43,7 +53,7 @@ class TwoLevelStrategy final : public Strategy {
     const std::vector<char> point_relevant = builder.PointRelevantNodes();
     const ProblemConfig level_one =
         LevelOneConfig(builder.graph(), point_relevant, builder.has_camera(), seam_edges_, rings_);
-    if (!SolveLevel(builder, level_one, options, state, &summary)) return summary;
+    if (!level_one_->Solve(builder, level_one, options, state, &summary)) return summary;
 
     // PI nodes follow even when Level I ran out of time: a seam left torn would be no usable state.
     // The caller's stop is obeyed, time is only cut to what is left.
@@ -52,7 +62,7 @@ class TwoLevelStrategy final : public Strategy {
     SolverOptions level_two_options = options;
     constexpr double kLeastTime = 1e-3;
     level_two_options.time_limit_s = std::max(kLeastTime, options.time_limit_s - timer.Seconds());
-    SolveLevel(builder, LevelTwoConfig(point_relevant), level_two_options, state, &summary);
+    level_two_->Solve(builder, LevelTwoConfig(point_relevant), level_two_options, state, &summary);
     if (level_one_status != SolveStatus::kConverged) {
       summary.status = level_one_status;
       summary.message = level_one_message;
@@ -64,6 +74,9 @@ class TwoLevelStrategy final : public Strategy {
  private:
   int rings_;
   SeamEdges seam_edges_;
+  // Each keeps the structure of its own level.
+  std::unique_ptr<LevelSolver> level_one_;
+  std::unique_ptr<LevelSolver> level_two_;
 };
 
 template <typename T>
@@ -123,12 +136,22 @@ int SolveSummary::TotalIterations() const {
   return total;
 }
 
+std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver) {
+  switch (linear_solver) {
+    case LinearSolver::kCeres:
+      return std::make_unique<CeresLevelSolver>();
+    case LinearSolver::kBlock:
+      return std::make_unique<BlockLevelSolver>();
+  }
+  LOG(FATAL) << "unknown linear solver";
+}
+
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options) {
   switch (options.mode) {
     case SolveMode::kBatch:
-      return std::make_unique<BatchStrategy>();
+      return std::make_unique<BatchStrategy>(options.linear_solver);
     case SolveMode::kTwoLevel:
-      return std::make_unique<TwoLevelStrategy>(options.rings, options.seam_edges);
+      return std::make_unique<TwoLevelStrategy>(options);
   }
   LOG(FATAL) << "unknown mode";
 }

@@ -4,7 +4,6 @@
 
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/problem/problem_builder.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/util/status.h>
 
 #include <functional>
@@ -13,6 +12,15 @@
 #include <vector>
 
 namespace ceres_ed {
+
+// What minimises a level.
+enum class LinearSolver {
+  // ceres::Solve: the reference.
+  kCeres,
+  // Block normal equations with a kept symbolic factor (block_level_solver.h): the same minimum in
+  // less time.
+  kBlock,
+};
 
 // Limits and tolerances of one solve; the defaults converge a problem in normalised units.
 struct SolverOptions {
@@ -67,7 +75,8 @@ struct SolveSummary {
   int TotalIterations() const;
 };
 
-// A way to solve. Stateless: one object serves any number of problems.
+// A way to solve. One object serves any number of problems, one at a time: it keeps what helps with
+// the next, similar one.
 class Strategy {
  public:
   virtual ~Strategy() = default;
@@ -75,7 +84,7 @@ class Strategy {
   // Moves `state` to a lower energy of `builder`'s problem. When it fails, `state` is unchanged.
   virtual SolveSummary Solve(const ProblemBuilder& builder,
                              const SolverOptions& options,
-                             DeformationState* state) const = 0;
+                             DeformationState* state) = 0;
 };
 
 enum class SolveMode { kBatch, kTwoLevel };
@@ -86,6 +95,7 @@ struct StrategyOptions {
   // Rings of PI nodes that Level I moves too, >= 0.
   int rings = 2;
   SeamEdges seam_edges = SeamEdges::kKeep;
+  LinearSolver linear_solver = LinearSolver::kBlock;
 
   bool IsValid(std::string* error) const;
 };

@@ -1,6 +1,9 @@
-#include "ceres_ed/solver/level_solver.h"
+#include "ceres_ed/solver/ceres_level_solver.h"
 
+#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/util/timer.h>
+
+#include <algorithm>
 
 #include <ceres/solver.h>
 
@@ -59,11 +62,11 @@ SolveStatus StatusOf(const ceres::Solver::Summary& ceres_summary, const SolverOp
 
 }  // namespace
 
-bool SolveLevel(const ProblemBuilder& builder,
-                const ProblemConfig& config,
-                const SolverOptions& options,
-                DeformationState* state,
-                SolveSummary* summary) {
+bool CeresLevelSolver::Solve(const ProblemBuilder& builder,
+                             const ProblemConfig& config,
+                             const SolverOptions& options,
+                             DeformationState* state,
+                             SolveSummary* summary) {
   LevelSummary level;
   Timer timer;
   const BuiltProblem built = builder.Build(config, state);
@@ -84,7 +87,8 @@ bool SolveLevel(const ProblemBuilder& builder,
   timer.Restart();
   ceres::Solve(ceres_options, built.problem.get(), &ceres_summary);
   level.solve_time_s = timer.Seconds();
-  level.iterations = static_cast<int>(ceres_summary.iterations.size());
+  // The first entry is the start, not a step.
+  level.iterations = std::max(0, static_cast<int>(ceres_summary.iterations.size()) - 1);
   level.initial_cost = ceres_summary.initial_cost;
   level.final_cost = ceres_summary.final_cost;
   summary->levels.push_back(level);

@@ -1,0 +1,52 @@
+// What a shared object exports to bring energies into a program (`--plugin=LIB.so`).
+//
+//   ceres_ed::Status RegisterMine(ceres_ed::EnergyRegistry* registry) {
+//     return registry->Register(MyInfo(), MakeMyTerm);
+//   }
+//   CERES_ED_PLUGIN(RegisterMine)
+//
+// Build it as a CMake MODULE library that links ceres_ed::ceres_ed.
+#ifndef CERES_ED_PLUGIN_PLUGIN_ABI_H_
+#define CERES_ED_PLUGIN_PLUGIN_ABI_H_
+
+#include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/util/status.h>
+#include <ceres_ed/version.h>
+
+#include <Eigen/Core>
+#include <ceres/version.h>
+
+#define CERES_ED_STRINGIFY_EXPANDED(x) #x
+#define CERES_ED_STRINGIFY(x) CERES_ED_STRINGIFY_EXPANDED(x)
+
+// Everything that two binaries must share to pass C++ objects to one another: fields "name value"
+// with ";" between them. A literal and no function, for the dynamic linker may give a plugin the
+// program's copy of an inline function, and the check would compare the program with itself.
+// clang-format off
+#define CERES_ED_PLUGIN_ABI                                                     \
+  "ceres_ed " CERES_ED_VERSION_STRING                                           \
+  ";Ceres " CERES_VERSION_STRING                                                \
+  ";Eigen " CERES_ED_STRINGIFY(EIGEN_WORLD_VERSION)                             \
+      "." CERES_ED_STRINGIFY(EIGEN_MAJOR_VERSION)                               \
+      "." CERES_ED_STRINGIFY(EIGEN_MINOR_VERSION)                               \
+  ";EIGEN_MAX_ALIGN_BYTES " CERES_ED_STRINGIFY(EIGEN_MAX_ALIGN_BYTES)           \
+  ";pointer_bytes " CERES_ED_STRINGIFY(__SIZEOF_POINTER__)
+// clang-format on
+
+// Names of the two exported functions, their C++ types being `const char*()` and
+// `void(ceres_ed::EnergyRegistry*, ceres_ed::Status*)`.
+#define CERES_ED_PLUGIN_ABI_SYMBOL ceres_ed_plugin_abi
+#define CERES_ED_PLUGIN_REGISTER_SYMBOL ceres_ed_plugin_register
+
+// Defines both functions. `register_function` is a Status(EnergyRegistry*). Once a shared object,
+// in a .cc file, outside of any namespace.
+#define CERES_ED_PLUGIN(register_function)                                                     \
+  extern "C" __attribute__((visibility("default"))) const char* CERES_ED_PLUGIN_ABI_SYMBOL() { \
+    return CERES_ED_PLUGIN_ABI;                                                                \
+  }                                                                                            \
+  extern "C" __attribute__((visibility("default"))) void CERES_ED_PLUGIN_REGISTER_SYMBOL(      \
+      ceres_ed::EnergyRegistry* registry, ceres_ed::Status* status) {                          \
+    *status = register_function(registry);                                                     \
+  }
+
+#endif  // CERES_ED_PLUGIN_PLUGIN_ABI_H_

@@ -1,0 +1,87 @@
+#include "ceres_ed/plugin/plugin_loader.h"
+
+#include <ceres_ed/plugin/plugin_abi.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include <dlfcn.h>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+using AbiFunction = const char*();
+using RegisterFunction = void(EnergyRegistry*, Status*);
+
+constexpr char kAbiName[] = CERES_ED_STRINGIFY(CERES_ED_PLUGIN_ABI_SYMBOL);
+constexpr char kRegisterName[] = CERES_ED_STRINGIFY(CERES_ED_PLUGIN_REGISTER_SYMBOL);
+
+Status Error(const std::string& path, const std::string& what) {
+  return Status::Error("plugin '" + path + "': " + what);
+}
+
+template <typename Function>
+Function* Find(void* library, const char* name) {
+  return reinterpret_cast<Function*>(dlsym(library, name));
+}
+
+std::vector<std::string> SplitFields(const std::string& abi) {
+  std::vector<std::string> fields;
+  std::istringstream stream(abi);
+  for (std::string field; std::getline(stream, field, ';');) fields.push_back(field);
+  return fields;
+}
+
+// "Eigen 3.3.9 (here Eigen 3.4.0), ..." for every field that differs.
+std::string DescribeDifference(const std::string& theirs, const std::string& ours) {
+  const std::vector<std::string> there = SplitFields(theirs);
+  const std::vector<std::string> here = SplitFields(ours);
+  if (there.size() != here.size()) return "'" + theirs + "' (here '" + ours + "')";
+  std::string text;
+  for (std::size_t i = 0; i < here.size(); ++i) {
+    if (there[i] == here[i]) continue;
+    text += (text.empty() ? "" : ", ") + there[i] + " (here " + here[i] + ")";
+  }
+  return text;
+}
+
+Status MissingSymbol(const std::string& path, const char* name) {
+  return Error(
+      path,
+      std::string("exports no ") + name + ", expected a shared object with CERES_ED_PLUGIN(...)");
+}
+
+// Checks the versions and calls the register function of an open plugin.
+Status RegisterFrom(void* library, const std::string& path, EnergyRegistry* registry) {
+  const auto abi = Find<AbiFunction>(library, kAbiName);
+  if (abi == nullptr) return MissingSymbol(path, kAbiName);
+  if (std::strcmp(abi(), CERES_ED_PLUGIN_ABI) != 0) {
+    return Error(path,
+                 "was built against " + DescribeDifference(abi(), CERES_ED_PLUGIN_ABI) +
+                     ", expected the versions of this program");
+  }
+  const auto register_energies = Find<RegisterFunction>(library, kRegisterName);
+  if (register_energies == nullptr) return MissingSymbol(path, kRegisterName);
+  Status status = Status::Ok();
+  register_energies(registry, &status);
+  return status.ok() ? status : Error(path, status.message());
+}
+
+}  // namespace
+
+Status LoadPlugin(const std::string& path, EnergyRegistry* registry) {
+  CHECK(registry != nullptr);
+  if (!std::ifstream(path)) return Error(path, std::string("cannot be read: ") + strerror(errno));
+  // dlopen looks for a bare name in the system's folders only.
+  const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
+  void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (library == nullptr) return Error(path, std::string("cannot be loaded: ") + dlerror());
+  // Never closed, not even after an error: some energies may have been registered by then.
+  return RegisterFrom(library, path, registry);
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,46 @@
+// Which blocks of the normal equations are there.
+#ifndef CERES_ED_SOLVER_BLOCK_STRUCTURE_H_
+#define CERES_ED_SOLVER_BLOCK_STRUCTURE_H_
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace ceres_ed {
+
+// The sparsity of a symmetric matrix of blocks, lower triangle, column by column. The diagonal
+// blocks are always there and come first in their columns.
+class BlockStructure {
+ public:
+  // `sizes[i]` rows of block i. `pairs` (row, column) of blocks that may be non-zero: any order,
+  // any triangle, repeated or not.
+  BlockStructure(std::vector<int> sizes, const std::vector<std::pair<int, int>>& pairs);
+
+  int num_blocks() const { return static_cast<int>(sizes_.size()); }
+  int size(int block) const { return sizes_[block]; }
+  // First scalar row of a block; row_offset(num_blocks()) is the number of scalar rows.
+  int row_offset(int block) const { return row_offsets_[block]; }
+  int num_rows() const { return row_offsets_.back(); }
+
+  // Blocks of column j are entries column_begin(j) to column_begin(j + 1), by row.
+  int column_begin(int column) const { return column_begins_[column]; }
+  int num_entries() const { return static_cast<int>(entry_rows_.size()); }
+  int entry_row(int entry) const { return entry_rows_[entry]; }
+  // Where the values of an entry start; they are column-major, size(row) x size(column).
+  std::size_t value_offset(int entry) const { return value_offsets_[entry]; }
+  std::size_t num_values() const { return value_offsets_.back(); }
+
+  // The entry of (row, column), row >= column; -1 when it isn't there.
+  int FindEntry(int row, int column) const;
+
+ private:
+  std::vector<int> sizes_;
+  std::vector<int> row_offsets_;
+  std::vector<int> column_begins_;
+  std::vector<int> entry_rows_;
+  std::vector<std::size_t> value_offsets_;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SOLVER_BLOCK_STRUCTURE_H_

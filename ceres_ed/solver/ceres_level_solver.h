@@ -1,0 +1,21 @@
+// Solves one ProblemConfig with ceres::Solve: the reference.
+#ifndef CERES_ED_SOLVER_CERES_LEVEL_SOLVER_H_
+#define CERES_ED_SOLVER_CERES_LEVEL_SOLVER_H_
+
+#include <ceres_ed/solver/level_solver.h>
+
+namespace ceres_ed {
+
+// Levenberg-Marquardt on SPARSE_NORMAL_CHOLESKY, with the best sparse library that Ceres has.
+class CeresLevelSolver final : public LevelSolver {
+ public:
+  bool Solve(const ProblemBuilder& builder,
+             const ProblemConfig& config,
+             const SolverOptions& options,
+             DeformationState* state,
+             SolveSummary* summary) override;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SOLVER_CERES_LEVEL_SOLVER_H_

@@ -1,0 +1,108 @@
+// The Gauss-Newton normal equations of a subproblem, assembled in blocks.
+#ifndef CERES_ED_SOLVER_NORMAL_EQUATIONS_H_
+#define CERES_ED_SOLVER_NORMAL_EQUATIONS_H_
+
+#include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/solver/block_structure.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+#include <ceres/loss_function.h>
+
+namespace ceres_ed {
+
+// Unknowns: one block of 12 a variable node, in the order of the nodes, then one of 6 for a
+// variable camera (rotation in the tangent space of ceres::EigenQuaternionManifold, then
+// translation). The builder must outlive this, and its residuals stay as they are.
+class NormalEquations {
+ public:
+  NormalEquations(const ProblemBuilder& builder, const ProblemConfig& config);
+
+  int num_variable_nodes() const { return static_cast<int>(variable_nodes_.size()); }
+  bool camera_variable() const { return camera_variable_; }
+  // Rows of each block.
+  std::vector<int> BlockSizes() const;
+  // Pairs of blocks that share a residual, sorted and without repetition.
+  std::vector<std::pair<int, int>> BlockPairs() const;
+
+  // Fixes where each residual's products go. `structure` has all of BlockPairs(), outlives this.
+  void SetStructure(const BlockStructure* structure);
+
+  // Writes cost = sum of rho(|r|^2) / 2, values = J^T J in the layout of the structure (diagonal
+  // blocks in full) and gradient = J^T r, with r and J corrected for the loss as Ceres does. False
+  // when a cost function fails or returns something that isn't finite.
+  bool Evaluate(const DeformationState& state,
+                int num_threads,
+                double* cost,
+                std::vector<double>* values,
+                Eigen::VectorXd* gradient) const;
+
+  // The cost alone.
+  bool EvaluateCost(const DeformationState& state, int num_threads, double* cost) const;
+
+  // state + delta, on the camera's manifold. `delta` has the layout of the unknowns.
+  void Plus(const Eigen::VectorXd& delta, DeformationState* state) const;
+
+  // The Euclidean norm of all variable parameters, as Ceres takes it for its tolerance.
+  double ParameterNorm(const DeformationState& state) const;
+
+ private:
+  // A part of a residual's Jacobian: `width` columns from `column` go to rows `offset` on of
+  // `block`.
+  struct Part {
+    int block = -1;
+    int offset = 0;
+    int width = 0;
+    int column = 0;
+  };
+  struct Item {
+    SelectedResidual residual;
+    int num_residuals = 0;
+    int width = 0;
+    int first_part = 0;
+    int num_parts = 0;
+    // Into entries_: num_parts * (num_parts + 1) / 2 entries of the structure.
+    int first_entry = 0;
+  };
+  class Scratch;
+
+  bool EvaluateResidual(const Item& item,
+                        const DeformationState& state,
+                        bool with_jacobian,
+                        Scratch* scratch,
+                        double* cost) const;
+  void Accumulate(const Item& item,
+                  const double* residuals,
+                  const double* jacobian,
+                  int first_block,
+                  int last_block,
+                  double* values,
+                  double* gradient) const;
+  bool EvaluateSerial(const DeformationState& state,
+                      double* cost,
+                      std::vector<double>* values,
+                      Eigen::VectorXd* gradient) const;
+  bool EvaluateParallel(const DeformationState& state,
+                        int num_threads,
+                        double* cost,
+                        std::vector<double>* values,
+                        Eigen::VectorXd* gradient) const;
+
+  std::vector<int> variable_nodes_;
+  bool camera_variable_ = false;
+  std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
+  std::vector<Item> items_;
+  std::vector<Part> parts_;
+  std::vector<int> entries_;
+  int max_residuals_ = 0;
+  int max_width_ = 0;
+  int max_blocks_ = 0;
+  const BlockStructure* structure_ = nullptr;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SOLVER_NORMAL_EQUATIONS_H_

@@ -1,0 +1,50 @@
+#!/usr/bin/env bash
+# Fits every pair in data/ and measures the results against their truth. The first run builds the
+# programs; the next ones take seconds. Results go to build/demo/.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+say() { printf '\n== %s\n' "$*"; }
+
+# number JSON_FILE OBJECT FIELD: the number FIELD of the top-level object OBJECT; - where there is none.
+number() {
+  awk -v object="\"$2\": {" -v field="\"$3\":" '
+    index($0, "  " object) == 1 { inside = 1 }
+    inside && index($0, field) { gsub(/[",]/, ""); print $2; found = 1; exit }
+    inside && /^  }/ { exit }
+    END { if (!found) print "-" }' "$1"
+}
+
+say "packages"
+scripts/setup.sh
+say "programs (the first time takes a few minutes)"
+scripts/configure.sh release
+cmake --build build/release --parallel "$(nproc)" --target ed_fit ed_eval
+
+apps=build/release/apps
+rows=()
+for source in data/*/source.ply; do
+  pair=$(basename "$(dirname "$source")")
+  folder=data/$pair
+  out=build/demo/$pair
+  mkdir -p "$out"
+  say "$pair: fit $source to $folder/target.ply"
+  "$apps/ed_fit" "$source" "$folder/target.ply" --output="$out/fitted.ply" \
+    --warp="$out/warp.json" --report="$out/fit.json"
+  truth=()
+  if [[ -f $folder/gt.ply ]]; then truth=(--truth="$folder/gt.ply"); fi
+  "$apps/ed_eval" "$out/fitted.ply" "$folder/target.ply" --source="$source" "${truth[@]}" \
+    --report="$out/eval.json" --error_ply="$out/error.ply"
+  rows+=("$pair $(number "$out/eval.json" symmetric mean_percent) \
+    $(number "$out/eval.json" truth mean_percent) $(number "$out/fit.json" time_s total)")
+done
+
+say "mean distance in percent of the target's diagonal, and time; results are in build/demo/"
+printf '%-24s %12s %12s %10s\n' pair "to target" "to truth" seconds
+for row in "${rows[@]}"; do
+  read -r pair surface truth seconds <<<"$row"
+  for value in surface truth seconds; do
+    if [[ ${!value} != - ]]; then printf -v "$value" '%.3f' "${!value}"; fi
+  done
+  printf '%-24s %12s %12s %10s\n' "$pair" "$surface" "$truth" "$seconds"
+done

@@ -1,0 +1,8 @@
+// Its own register function refuses.
+#include <ceres_ed/plugin/plugin_abi.h>
+
+static ceres_ed::Status Refuse(ceres_ed::EnergyRegistry*) {
+  return ceres_ed::Status::Error("needs a licence file");
+}
+
+CERES_ED_PLUGIN(Refuse)

@@ -1,0 +1,2 @@
+// A shared object, but no plugin.
+extern "C" int Answer() { return 42; }
