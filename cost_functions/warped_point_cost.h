@@ -11,6 +11,7 @@
 #define CERES_ED_COST_FUNCTIONS_WARPED_POINT_COST_H_
 
 #include <array>
+#include <cstddef>
 #include <tuple>
 #include <utility>
 
@@ -20,19 +21,42 @@
 #include <ceres/jet.h>
 #include <cost_functions/node_parameters.h>
 #include <cost_functions/warp.h>
+#include <glog/logging.h>
 
 namespace ceres_ed {
+
+// What a solver may ask of a cost function on one warped point beyond its blocks: the Jacobian by a
+// node's block is weight * [offset; 1]^T (x) (dr/dp), so that products of such Jacobians cost the
+// same for any number of residuals.
+class PointCostFunction : public ceres::CostFunction {
+ public:
+  const BoundPoint& point() const { return point_; }
+  bool has_camera() const { return has_camera_; }
+
+  // Residuals, and their num_residuals() x 3 row-major derivative by the warped point.
+  virtual bool EvaluateAtPoint(const double* warped,
+                               double* residuals,
+                               double* jacobian_by_point) const = 0;
+
+ protected:
+  PointCostFunction(const BoundPoint& point, bool has_camera)
+      : point_(point), has_camera_(has_camera) {}
+
+ private:
+  BoundPoint point_;
+  bool has_camera_;
+};
 
 // The fast carrier: 3-wide jets through the functor, chained with the warp's own Jacobian. The same
 // numbers as AutoDiffWarpedPointCost at a tenth of its time.
 // Parameter blocks: the point's nodes (12 each), then, with a camera, R_c (4) and T_c (3).
 template <typename Functor>
-class WarpedPointCost final : public ceres::CostFunction {
+class WarpedPointCost final : public PointCostFunction {
  public:
   static constexpr int kNumResiduals = Functor::kNumResiduals;
 
   WarpedPointCost(Functor functor, const BoundPoint& point, bool has_camera)
-      : functor_(std::move(functor)), point_(point), has_camera_(has_camera) {
+      : PointCostFunction(point, has_camera), functor_(std::move(functor)) {
     set_num_residuals(kNumResiduals);
     mutable_parameter_block_sizes()->assign(point.num_nodes(), kNodeSize);
     if (has_camera) {
@@ -41,30 +65,40 @@ class WarpedPointCost final : public ceres::CostFunction {
     }
   }
 
-  bool Evaluate(double const* const* parameters,
-                double* residuals,
-                double** jacobians) const override {
-    const Eigen::Vector3d point_in_map = WarpToMap(point_, parameters);
-    const double* rotation = has_camera_ ? parameters[point_.num_nodes()] : nullptr;
-    const double* translation = has_camera_ ? parameters[point_.num_nodes() + 1] : nullptr;
-    const Eigen::Vector3d warped =
-        has_camera_ ? MapToCamera(rotation, translation, point_in_map) : point_in_map;
-    if (jacobians == nullptr) return functor_(warped.data(), residuals);
-
+  bool EvaluateAtPoint(const double* warped,
+                       double* residuals,
+                       double* jacobian_by_point) const override {
+    if (jacobian_by_point == nullptr) return functor_(warped, residuals);
     using Jet = ceres::Jet<double, 3>;
     const Jet jets[3] = {Jet(warped[0], 0), Jet(warped[1], 1), Jet(warped[2], 2)};
     Jet jet_residuals[kNumResiduals];
     if (!functor_(jets, jet_residuals)) return false;
-    PointJacobian by_warped;
     for (int r = 0; r < kNumResiduals; ++r) {
       residuals[r] = jet_residuals[r].a;
-      by_warped.row(r) = jet_residuals[r].v.transpose();
+      for (int i = 0; i < 3; ++i) jacobian_by_point[3 * r + i] = jet_residuals[r].v[i];
     }
+    return true;
+  }
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    const int num_nodes = point().num_nodes();
+    const Eigen::Vector3d point_in_map = WarpToMap(point(), parameters);
+    const double* rotation = has_camera() ? parameters[num_nodes] : nullptr;
+    const double* translation = has_camera() ? parameters[num_nodes + 1] : nullptr;
+    const Eigen::Vector3d warped =
+        has_camera() ? MapToCamera(rotation, translation, point_in_map) : point_in_map;
+    if (jacobians == nullptr) return EvaluateAtPoint(warped.data(), residuals, nullptr);
+
+    double derivative[3 * kNumResiduals];
+    if (!EvaluateAtPoint(warped.data(), residuals, derivative)) return false;
+    const PointJacobian by_warped = ConstPointJacobianMap(derivative);
     PointJacobian by_map = by_warped;
-    if (has_camera_) {
+    if (has_camera()) {
       const Eigen::Map<const Eigen::Quaterniond> R_c(rotation);
       by_map = by_warped * R_c.toRotationMatrix();
-      FillCameraJacobians(point_in_map, R_c, by_warped, jacobians + point_.num_nodes());
+      FillCameraJacobians(point_in_map, R_c, by_warped, jacobians + num_nodes);
     }
     FillNodeJacobians(by_map, jacobians);
     return true;
@@ -72,17 +106,19 @@ class WarpedPointCost final : public ceres::CostFunction {
 
  private:
   using PointJacobian = Eigen::Matrix<double, kNumResiduals, 3>;
+  using ConstPointJacobianMap =
+      Eigen::Map<const Eigen::Matrix<double, kNumResiduals, 3, Eigen::RowMajor>>;
   template <int kCols>
   using BlockJacobian = Eigen::Map<Eigen::Matrix<double, kNumResiduals, kCols, Eigen::RowMajor>>;
 
   // Ceres passes a null pointer for every block that is held constant: each one is tested.
   void FillNodeJacobians(const PointJacobian& by_map, double** jacobians) const {
-    for (int i = 0; i < point_.num_nodes(); ++i) {
+    for (int i = 0; i < point().num_nodes(); ++i) {
       if (jacobians[i] == nullptr) continue;
       BlockJacobian<kNodeSize> J(jacobians[i]);
-      const PointJacobian by_translation = point_.weight(i) * by_map;
+      const PointJacobian by_translation = point().weight(i) * by_map;
       for (int c = 0; c < 3; ++c) {
-        J.template middleCols<3>(3 * c) = point_.offset(i)[c] * by_translation;
+        J.template middleCols<3>(3 * c) = point().offset(i)[c] * by_translation;
       }
       J.template middleCols<3>(kNodeTranslationOffset) = by_translation;
     }
@@ -112,8 +148,6 @@ class WarpedPointCost final : public ceres::CostFunction {
   }
 
   Functor functor_;
-  BoundPoint point_;
-  bool has_camera_;
 };
 
 namespace internal {
@@ -141,6 +175,10 @@ class AutoDiffWarpedPoint {
   BoundPoint point_;
 };
 
+// kNodeSize once for each element of a pack.
+template <std::size_t>
+inline constexpr int kSizeOfNode = kNodeSize;
+
 template <typename Functor, std::size_t... kNodes>
 ceres::CostFunction* CreateAutoDiffWarpedPoint(Functor functor,
                                                const BoundPoint& point,
@@ -150,13 +188,13 @@ ceres::CostFunction* CreateAutoDiffWarpedPoint(Functor functor,
     using Carrier = AutoDiffWarpedPoint<Functor, true>;
     return new ceres::AutoDiffCostFunction<Carrier,
                                            Functor::kNumResiduals,
-                                           (kNodes, kNodeSize)...,
+                                           kSizeOfNode<kNodes>...,
                                            kRotationSize,
                                            kTranslationSize>(
         new Carrier(std::move(functor), point));
   }
   using Carrier = AutoDiffWarpedPoint<Functor, false>;
-  return new ceres::AutoDiffCostFunction<Carrier, Functor::kNumResiduals, (kNodes, kNodeSize)...>(
+  return new ceres::AutoDiffCostFunction<Carrier, Functor::kNumResiduals, kSizeOfNode<kNodes>...>(
       new Carrier(std::move(functor), point));
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -78,7 +79,12 @@ Status EnergyRegistry::Register(EnergyInfo info, Factory factory) {
   if (Find(info.name) != nullptr) {
     return Status::Error("energy '" + info.name + "' is registered already");
   }
+  std::set<std::string> names{"weight", "loss", "loss_width"};
   for (const EnergyParameter& parameter : info.parameters) {
+    if (!names.insert(parameter.name).second) {
+      return Status::Error("energy '" + info.name + "': parameter '" + parameter.name +
+                           "' is there twice, or is one that every energy has");
+    }
     Status status = CheckValue(info, parameter, parameter.default_value);
     if (!status.ok()) return status;
   }

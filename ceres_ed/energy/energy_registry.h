@@ -33,7 +33,8 @@ class EnergyRegistry {
  public:
   using Factory = std::function<std::unique_ptr<EnergyTerm>(const ParameterValues&)>;
 
-  // Error: the name is taken, is not snake_case, or a parameter's default is out of its range.
+  // Error: the name is taken or not snake_case, a parameter is there twice or has a name that every
+  // energy has (weight, loss, loss_width), or its default is out of its range.
   Status Register(EnergyInfo info, Factory factory);
 
   // All energies in the order of their names.

@@ -69,10 +69,17 @@ class ProblemBuilder::TermSink final : public ResidualSink {
            int num_blocks,
            double weight) override {
     CHECK(cost != nullptr) << "energy '" << term_->label << "' added no cost function";
-    CHECK(weight >= 0.0) << "energy '" << term_->label << "': residual weight " << weight;
+    CHECK(std::isfinite(weight) && weight >= 0.0)
+        << "energy '" << term_->label << "': residual weight " << weight;
     const std::vector<int>& sizes = cost->parameter_block_sizes();
     CHECK_EQ(static_cast<int>(sizes.size()), num_blocks) << "energy '" << term_->label << "'";
-    for (int i = 0; i < num_blocks; ++i) CheckBlock(blocks[i], sizes[i]);
+    for (int i = 0; i < num_blocks; ++i) {
+      CheckBlock(blocks[i], sizes[i]);
+      for (int k = 0; k < i; ++k) {
+        CHECK(blocks[k].kind != blocks[i].kind || blocks[k].node != blocks[i].node)
+            << "energy '" << term_->label << "': blocks " << k << " and " << i << " are the same";
+      }
+    }
     const int first_block = static_cast<int>(term_->blocks.size());
     term_->blocks.insert(term_->blocks.end(), blocks, blocks + num_blocks);
     term_->residuals.push_back({std::move(cost), weight, first_block, num_blocks});

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 #include <ceres/loss_function.h>
+#include <cost_functions/warped_point_cost.h>
 
 namespace ceres_ed {
 
@@ -60,25 +61,65 @@ class NormalEquations {
   };
   struct Item {
     SelectedResidual residual;
+    // Set where the cost function is one on a warped point: its Jacobian has a form of its own.
+    const PointCostFunction* point = nullptr;
     int num_residuals = 0;
     int width = 0;
     int first_part = 0;
     int num_parts = 0;
     // Into entries_: num_parts * (num_parts + 1) / 2 entries of the structure.
     int first_entry = 0;
+
+    // Doubles that the item's linearisation takes.
+    int LinearizationSize() const;
   };
+  // A linearised residual, corrected for its loss. Of a general one: residuals, then the parts of
+  // the Jacobian one after the other, each row-major. Of a point: PointLinearization.
+  struct PointLinearization;
   class Scratch;
 
-  bool EvaluateResidual(const Item& item,
-                        const DeformationState& state,
-                        bool with_jacobian,
-                        Scratch* scratch,
-                        double* cost) const;
+  void AddItem(const SelectedResidual& residual, const std::vector<int>& block_of_node);
+  bool ApplyLoss(const Item& item, const double* residuals, double rho[3], double* cost) const;
+  bool EvaluateGeneral(const Item& item,
+                       const DeformationState& state,
+                       double* linearization,
+                       Scratch* scratch,
+                       double* cost) const;
+  bool EvaluatePoint(const Item& item,
+                     const DeformationState& state,
+                     double* linearization,
+                     Scratch* scratch,
+                     double* cost) const;
+  // `linearization` is null where the cost alone is wanted.
+  bool EvaluateItem(const Item& item,
+                    const DeformationState& state,
+                    double* linearization,
+                    Scratch* scratch,
+                    double* cost) const;
+  // What follows touches gradient rows of, and value columns of, blocks in [first, last) alone.
+  struct BlockRange {
+    int first = 0;
+    int last = 0;
+    bool Has(int block) const { return block >= first && block < last; }
+  };
+  void AccumulateGeneral(const Item& item,
+                         const double* linearization,
+                         const BlockRange& range,
+                         double* values,
+                         double* gradient) const;
+  void AccumulatePoint(const Item& item,
+                       const double* linearization,
+                       const BlockRange& range,
+                       double* values,
+                       double* gradient) const;
+  void AccumulateCamera(const Item& item,
+                        const double* linearization,
+                        const BlockRange& range,
+                        double* values,
+                        double* gradient) const;
   void Accumulate(const Item& item,
-                  const double* residuals,
-                  const double* jacobian,
-                  int first_block,
-                  int last_block,
+                  const double* linearization,
+                  const BlockRange& range,
                   double* values,
                   double* gradient) const;
   bool EvaluateSerial(const DeformationState& state,
@@ -98,8 +139,8 @@ class NormalEquations {
   std::vector<Part> parts_;
   std::vector<int> entries_;
   int max_residuals_ = 0;
-  int max_width_ = 0;
   int max_blocks_ = 0;
+  int max_linearization_ = 0;
   const BlockStructure* structure_ = nullptr;
 };
 

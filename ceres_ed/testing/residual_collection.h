@@ -1,0 +1,38 @@
+// The residuals of an energy outside of any problem.
+#ifndef CERES_ED_TESTING_RESIDUAL_COLLECTION_H_
+#define CERES_ED_TESTING_RESIDUAL_COLLECTION_H_
+
+#include <ceres_ed/energy/energy.h>
+#include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/testing/cost_laws.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <ceres/cost_function.h>
+
+namespace ceres_ed {
+
+// A residual as an energy has added it.
+struct CollectedResidual {
+  std::unique_ptr<ceres::CostFunction> cost;
+  std::vector<BlockRef> blocks;
+  double weight = 1.0;
+};
+
+// Returns what `energy` adds for `context`, unchecked and in order.
+std::vector<CollectedResidual> CollectResiduals(const EnergyTerm& energy,
+                                                const EnergyContext& context);
+
+// Returns the parameter blocks of a residual at `state`; its block indices must be in range.
+ParameterBlocks BlocksAt(const CollectedResidual& residual, const DeformationState& state);
+
+// Returns what is wrong with a residual of a graph of `num_nodes` nodes, with a camera or without
+// one: no cost function, a bad weight, blocks that are not there, do not fit or are there twice.
+// Empty when nothing is.
+std::string BlockFault(const CollectedResidual& residual, int num_nodes, bool has_camera);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_TESTING_RESIDUAL_COLLECTION_H_
