@@ -19,6 +19,7 @@ namespace {
 // metres is 1000, a partial view of a body seldom less than a tenth of it.
 constexpr double kMaxScaleRatio = 25.0;
 constexpr int kMinPoints = 4;
+constexpr int kMaxLevels = 5;
 
 Status CheckIndex(const char* what, int point, std::size_t size) {
   if (point >= 0 && point < static_cast<int>(size)) return Status::Ok();
@@ -115,6 +116,22 @@ Warp WarpInSourceFrame(const BuiltGraph& graph,
   return warp;
 }
 
+// The state of other nodes, at some of the source's points, under the warp of `graph`.
+DeformationState CarryOver(const BuiltGraph& graph,
+                           const DeformationState& state,
+                           const std::vector<int>& node_points,
+                           const std::vector<Eigen::Vector3d>& points) {
+  DeformationState carried(static_cast<int>(node_points.size()));
+  for (int j = 0; j < carried.num_nodes(); ++j) {
+    const int point = node_points[j];
+    const Binding binding = graph.skinning[point];
+    MutableNodeAffine(carried.node(j)) = WarpGradient(state, binding);
+    MutableNodeTranslation(carried.node(j)) =
+        WarpPoint(graph.graph, state, binding, points[point]) - points[point];
+  }
+  return carried;
+}
+
 std::vector<Correspondence> InUnitFrame(const std::vector<PointConstraint>& constraints,
                                         const Similarity& unit_from_target) {
   std::vector<Correspondence> correspondences;
@@ -137,7 +154,11 @@ class Fitter {
 
  private:
   void PlaceRigidly();
-  StatusOr<BuiltGraph> BuildUnitGraph(const Surface& source) const;
+  // The graph of one level; `coarsening` multiplies the node spacing of the last one.
+  StatusOr<BuiltGraph> BuildUnitGraph(const Surface& source,
+                                      const BuiltGraph* finest,
+                                      double coarsening) const;
+  Status RunLevels(const Surface& source, const Surface* target);
   FitOptions UnitOptions(const Surface& source, const Surface* target) const;
   void Finish(const BuiltGraph& graph, const DeformationState& state);
   void WarnAboutReflections(const DeformationState& state);
@@ -168,10 +189,16 @@ void Fitter::PlaceRigidly() {
   result_.times.rigid = timer.Seconds();
 }
 
-StatusOr<BuiltGraph> Fitter::BuildUnitGraph(const Surface& source) const {
+StatusOr<BuiltGraph> Fitter::BuildUnitGraph(const Surface& source,
+                                            const BuiltGraph* finest,
+                                            double coarsening) const {
   GraphOptions graph_options = options_.graph;
   graph_options.node_spacing *= unit_from_target_.scale * result_.rigid.scale;
   graph_options.num_threads = options_.num_threads;
+  if (finest != nullptr) {
+    graph_options.node_spacing = finest->node_spacing * coarsening;
+    graph_options.target_nodes = 0;
+  }
   return BuildGraph(source.cloud(), source.topology(), graph_options);
 }
 
@@ -239,27 +266,53 @@ StatusOr<FitResult> Fitter::Run() {
     target = std::make_unique<Surface>(Transformed(unit_from_target_, input_.target),
                                        options_.num_threads);
   }
-  result_.times.prepare = timer.Restart();
-  StatusOr<BuiltGraph> graph = BuildUnitGraph(source);
-  if (!graph.ok()) return graph.status();
-  result_.times.graph = timer.Seconds();
-  result_.warnings.insert(result_.warnings.end(), graph->warnings.begin(), graph->warnings.end());
+  result_.times.prepare = timer.Seconds();
+  if (Status status = RunLevels(source, target.get()); !status.ok()) return status;
+  return std::move(result_);
+}
 
+// Fits with few nodes first, carries the warp over to more, and goes on.
+Status Fitter::RunLevels(const Surface& source, const Surface* target) {
+  Timer timer;
+  StatusOr<BuiltGraph> finest = BuildUnitGraph(source, nullptr, 1.0);
+  if (!finest.ok()) return finest.status();
+  result_.warnings.insert(result_.warnings.end(), finest->warnings.begin(), finest->warnings.end());
+  result_.times.graph = timer.Seconds();
   std::vector<PointConstraint> fixed;
   for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
-  const FitOptions unit_options = UnitOptions(source, target.get());
-  FitProblem problem(*graph, source.cloud().points);
-  if (Status status = problem.AddEnergies(unit_options,
-                                          registry_,
-                                          InUnitFrame(input_.landmarks, unit_from_target_),
-                                          InUnitFrame(fixed, unit_from_target_));
-      !status.ok()) {
-    return status;
+  const FitOptions unit_options = UnitOptions(source, target);
+  const std::vector<LevelPlan> plans = PlanLevels(options_);
+
+  BuiltGraph graph;
+  DeformationState state;
+  for (std::size_t level = 0; level < plans.size(); ++level) {
+    timer.Restart();
+    const bool last = level + 1 == plans.size();
+    StatusOr<BuiltGraph> next =
+        last ? std::move(finest)
+             : BuildUnitGraph(source, &*finest, std::pow(2.0, plans.size() - 1 - level));
+    // A body of few nodes has no coarser graph: the finer levels do all of it.
+    if (!next.ok()) continue;
+    state = graph.graph.num_nodes() == 0
+                ? DeformationState(next->graph.num_nodes())
+                : CarryOver(graph, state, next->node_points, source.cloud().points);
+    graph = *std::move(next);
+    result_.times.graph += timer.Seconds();
+    FitProblem problem(graph, source.cloud().points);
+    Status status = problem.AddEnergies(unit_options,
+                                        registry_,
+                                        InUnitFrame(input_.landmarks, unit_from_target_),
+                                        InUnitFrame(fixed, unit_from_target_));
+    if (!status.ok()) return status;
+    RunNonrigidLoop(
+        source, target, graph, unit_options, plans[level], clock_, &problem, &state, &result_);
+    if (result_.status != SolveStatus::kConverged &&
+        result_.status != SolveStatus::kMaxIterations) {
+      break;
+    }
   }
-  DeformationState state(graph->graph.num_nodes());
-  RunNonrigidLoop(source, target.get(), *graph, unit_options, clock_, &problem, &state, &result_);
-  Finish(*graph, state);
-  return std::move(result_);
+  Finish(graph, state);
+  return Status::Ok();
 }
 
 }  // namespace
@@ -286,12 +339,17 @@ bool FitOptions::IsValid(std::string* error) const {
     bad("point_to_point_share", weights.point_to_point_share, "in [0, 1]");
   } else if (!(schedule.initial_stiffness >= 1.0)) {
     bad("initial_stiffness", schedule.initial_stiffness, ">= 1");
-  } else if (schedule.steps < 1 || schedule.max_rounds < 1 || schedule.solver_iterations < 1) {
-    bad("steps, max_rounds or solver_iterations", 0, ">= 1");
+  } else if (schedule.levels < 1 || schedule.levels > kMaxLevels) {
+    bad("levels", schedule.levels, "in [1, 5]");
+  } else if (std::min({schedule.coarse_steps,
+                       schedule.fine_steps,
+                       schedule.max_rounds,
+                       schedule.solver_iterations}) < 1) {
+    message << "coarse_steps, fine_steps, max_rounds and solver_iterations are expected >= 1";
   } else if (!(schedule.tolerance > 0.0)) {
     bad("tolerance", schedule.tolerance, "> 0");
-  } else if (!(loss_width > 0.0)) {
-    bad("loss_width", loss_width, "> 0");
+  } else if (!(std::min(loss_width, coarse_loss_width) > 0.0)) {
+    bad("loss_width or coarse_loss_width", std::min(loss_width, coarse_loss_width), "> 0");
   } else if (max_samples < 10) {
     bad("max_samples", max_samples, ">= 10");
   } else if (num_threads < 1) {

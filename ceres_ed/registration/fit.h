@@ -53,20 +53,24 @@ struct FitWeights {
   double point_to_point_share = 0.1;
 };
 
-// From stiff to soft: E_rot and E_reg start at `initial_stiffness` times their weights and come
-// down to the weights themselves in equal ratios.
+// From stiff to soft, and from few nodes to many: E_rot and E_reg start at `initial_stiffness`
+// times their weights and come down to the weights themselves in equal ratios, spread over the
+// levels.
 struct FitSchedule {
+  // Graphs that are fitted one after the other, each with twice the node spacing of the next, >= 1.
+  int levels = 2;
   // >= 1.
   double initial_stiffness = 1000.0;
-  // Steps of stiffness, >= 1.
-  int steps = 8;
+  // Steps of stiffness on the coarser levels together, and on the last one, >= 1.
+  int coarse_steps = 7;
+  int fine_steps = 2;
   // Rounds of matching and solving in each step, >= 1; fewer where the surface stands still.
-  int max_rounds = 6;
+  int max_rounds = 8;
   // Mean motion of the source in a round, as a fraction of its diagonal, that counts as standing
   // still, > 0.
   double tolerance = 2e-4;
   // Iterations of the solver in a round, >= 1.
-  int solver_iterations = 2;
+  int solver_iterations = 1;
 };
 
 struct FitProgress {
@@ -86,13 +90,17 @@ struct FitOptions {
   GraphOptions graph;
   FitWeights weights;
   FitSchedule schedule;
-  // Type of the data loss; its width follows the spread of the residuals, this multiple of their
-  // robust standard deviation, > 0.
+  // Type of the data loss; its width follows the spread of the residuals, a multiple of their
+  // robust standard deviation, > 0. While there are few nodes it is narrow: limbs that are far from
+  // their place wait until what carries them is near. On the last level it is wide, so that they
+  // are fetched.
   LossType loss = LossType::kWelsch;
+  double coarse_loss_width = 3.0;
   double loss_width = 10.0;
   // max_distance is in the target's unit.
   MatchingOptions matching;
-  // Points of each surface that are matched, >= 10.
+  // Points of each surface that are matched on the last level, >= 10; a quarter of them, but no
+  // fewer than 1000, on the level before.
   int max_samples = 4000;
   bool rigid_first = true;
   RigidOptions rigid;

@@ -13,6 +13,7 @@ class NonrigidLoop {
                const Surface* target,
                const BuiltGraph& graph,
                const FitOptions& options,
+               const LevelPlan& plan,
                const Timer& clock,
                FitProblem* problem,
                DeformationState* state,
@@ -21,6 +22,7 @@ class NonrigidLoop {
         target_(target),
         graph_(graph),
         options_(options),
+        plan_(plan),
         clock_(clock),
         problem_(problem),
         state_(state),
@@ -43,6 +45,7 @@ class NonrigidLoop {
   const Surface* target_;
   const BuiltGraph& graph_;
   const FitOptions& options_;
+  const LevelPlan& plan_;
   const Timer& clock_;
   FitProblem* problem_;
   DeformationState* state_;
@@ -53,6 +56,8 @@ class NonrigidLoop {
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3d> normals_;
   double energy_ = 0.0;
+  MatchingOptions mo_;
+  double lw_ = 10;
 };
 
 // True, with the reason in the result, when the fit has to end now.
@@ -90,8 +95,8 @@ void NonrigidLoop::Match() {
                                    *target_,
                                    target_samples_,
                                    options_.matching);
-  const double width = options_.loss_width *
-                       std::max(result_->matches.robust_distance, options_.matching.resolution);
+  const double width =
+      plan_.loss_width * std::max(result_->matches.robust_distance, options_.matching.resolution);
   problem_->SetCorrespondences(result_->matches.correspondences, std::max(width, 1e-12));
   result_->times.associate += timer.Seconds();
 }
@@ -140,8 +145,8 @@ NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
 
 void NonrigidLoop::Run() {
   const FitSchedule& schedule = options_.schedule;
-  source_samples_ = SamplePoints(source_, options_.max_samples);
-  if (target_ != nullptr) target_samples_ = SamplePoints(*target_, options_.max_samples);
+  source_samples_ = SamplePoints(source_, plan_.samples);
+  if (target_ != nullptr) target_samples_ = SamplePoints(*target_, plan_.samples);
   WarpPoints(graph_.graph,
              *state_,
              graph_.skinning,
@@ -149,12 +154,28 @@ void NonrigidLoop::Run() {
              options_.num_threads,
              &points_);
   RoundOutcome outcome = RoundOutcome::kMoving;
-  for (int step = 0; step < schedule.steps && outcome != RoundOutcome::kStopped; ++step) {
-    const double progress = schedule.steps > 1 ? double(step) / (schedule.steps - 1) : 1.0;
-    problem_->SetStiffness(std::pow(schedule.initial_stiffness, 1.0 - progress));
+  for (int step = 0; step < plan_.steps && outcome != RoundOutcome::kStopped; ++step) {
+    const double part = plan_.steps > 1 ? double(step) / (plan_.steps - 1) : 1.0;
+    problem_->SetStiffness(plan_.first_stiffness *
+                           std::pow(plan_.last_stiffness / plan_.first_stiffness, part));
+    {
+      auto e = [](const char* n, double d) {
+        const char* v = getenv(n);
+        return v ? atof(v) : d;
+      };
+      mo_ = options_.matching;
+      lw_ = options_.loss_width;
+      if (plan_.progress_begin == 0 && plan_.steps > 2) {
+        double f = double(step) / (plan_.steps - 1);
+        int seg = f < e("SEG", 0.5) ? 0 : 1;
+        mo_.max_deviations = e(seg ? "DEV1" : "DEV0", mo_.max_deviations);
+        lw_ = e(seg ? "LW1" : "LW0", lw_);
+      }
+    }
     for (int round = 0; round < schedule.max_rounds; ++round) {
       outcome = RunRound(schedule.solver_iterations);
-      Report((step + double(round + 1) / schedule.max_rounds) / schedule.steps);
+      const double done = (step + double(round + 1) / schedule.max_rounds) / plan_.steps;
+      Report(plan_.progress_begin + done * (plan_.progress_end - plan_.progress_begin));
       if (outcome != RoundOutcome::kMoving) break;
     }
   }
@@ -169,15 +190,49 @@ void NonrigidLoop::Run() {
 
 }  // namespace
 
+std::vector<LevelPlan> PlanLevels(const FitOptions& options) {
+  const FitSchedule& schedule = options.schedule;
+  constexpr int kMinCoarseSamples = 1000;
+  const int coarse_levels = schedule.levels - 1;
+  // Where the stiffness stands after the coarse levels: what is left to the last one is one step
+  // less than it has, for it starts with the stiffness that they ended with.
+  const int ratios =
+      std::max(1, (coarse_levels > 0 ? schedule.coarse_steps - 1 : 0) + schedule.fine_steps - 1);
+  const double ratio = std::pow(schedule.initial_stiffness, -1.0 / ratios);
+  std::vector<LevelPlan> plans;
+  double stiffness = schedule.initial_stiffness;
+  int samples = options.max_samples;
+  for (int level = schedule.levels - 1; level >= 0; --level) {
+    LevelPlan plan;
+    plan.samples = samples;
+    samples = std::min(options.max_samples, std::max(kMinCoarseSamples, samples / 4));
+    plans.insert(plans.begin(), plan);
+  }
+  for (int level = 0; level < schedule.levels; ++level) {
+    LevelPlan& plan = plans[level];
+    const bool last = level == coarse_levels;
+    plan.steps = last ? schedule.fine_steps
+                      : std::max(1, schedule.coarse_steps / std::max(1, coarse_levels));
+    plan.loss_width = last ? options.loss_width : options.coarse_loss_width;
+    plan.first_stiffness = stiffness;
+    stiffness = last ? 1.0 : stiffness * std::pow(ratio, plan.steps - 1);
+    plan.last_stiffness = stiffness;
+    plan.progress_begin = double(level) / schedule.levels;
+    plan.progress_end = double(level + 1) / schedule.levels;
+  }
+  return plans;
+}
+
 void RunNonrigidLoop(const Surface& source,
                      const Surface* target,
                      const BuiltGraph& graph,
                      const FitOptions& options,
+                     const LevelPlan& plan,
                      const Timer& clock,
                      FitProblem* problem,
                      DeformationState* state,
                      FitResult* result) {
-  NonrigidLoop(source, target, graph, options, clock, problem, state, result).Run();
+  NonrigidLoop(source, target, graph, options, plan, clock, problem, state, result).Run();
 }
 
 }  // namespace ceres_ed

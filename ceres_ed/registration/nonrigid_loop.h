@@ -6,15 +6,37 @@
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/util/timer.h>
 
+#include <vector>
+
 namespace ceres_ed {
+
+// What one level of the schedule does.
+struct LevelPlan {
+  // E_rot and E_reg at the first and at the last step, as multiples of their weights.
+  double first_stiffness = 1.0;
+  double last_stiffness = 1.0;
+  int steps = 1;
+  // Of the data loss, as a multiple of the robust standard deviation of the residuals.
+  double loss_width = 10.0;
+  // Points of each surface that are matched.
+  int samples = 1000;
+  // What of the whole fit is done before and after this level, in [0, 1].
+  double progress_begin = 0.0;
+  double progress_end = 1.0;
+};
+
+// The levels of a fit, coarse to fine.
+std::vector<LevelPlan> PlanLevels(const FitOptions& options);
 
 // Moves `state` so that the warped `source` follows `target` (null: landmarks alone). All lengths
 // are in the unit frame. Fills in status, message, point_relevant, matches, energies, iterations
-// and times of `result`; `clock` started with the fit.
+// and times of `result`; `clock` started with the
+// fit. The status stays failed, interrupted or time_limit where the loop ended early.
 void RunNonrigidLoop(const Surface& source,
                      const Surface* target,
                      const BuiltGraph& graph,
                      const FitOptions& options,
+                     const LevelPlan& plan,
                      const Timer& clock,
                      FitProblem* problem,
                      DeformationState* state,
