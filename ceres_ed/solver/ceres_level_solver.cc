@@ -30,7 +30,8 @@ class StopCallback final : public ceres::IterationCallback {
 
 ceres::Solver::Options CeresOptions(const SolverOptions& options) {
   ceres::Solver::Options ceres_options;
-  // Deterministic over thread counts, which the Schur solvers are not.
+  // The same step at any thread count, which the Schur solvers do not give; only the cost, summed
+  // up by thread, differs in its last bits.
   ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   ceres_options.sparse_linear_algebra_library_type = PreferredSparseLibrary();
   ceres_options.max_num_iterations = options.max_iterations;

@@ -75,8 +75,17 @@ class NormalEquations {
   };
   // A linearised residual, corrected for its loss. Of a general one: residuals, then the parts of
   // the Jacobian one after the other, each row-major. Of a point: PointLinearization.
-  struct PointLinearization;
-  class Scratch;
+  // Buffers of one thread.
+  struct Scratch {
+    explicit Scratch(const NormalEquations& equations);
+
+    std::vector<double> linearization;
+    std::vector<double> residuals;
+    // By a quaternion, or by a point.
+    std::vector<double> derivative;
+    std::vector<const double*> blocks;
+    std::vector<double*> jacobians;
+  };
 
   void AddItem(const SelectedResidual& residual, const std::vector<int>& block_of_node);
   bool ApplyLoss(const Item& item, const double* residuals, double rho[3], double* cost) const;

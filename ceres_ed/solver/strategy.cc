@@ -53,16 +53,18 @@ class TwoLevelStrategy final : public Strategy {
     const std::vector<char> point_relevant = builder.PointRelevantNodes();
     const ProblemConfig level_one =
         LevelOneConfig(builder.graph(), point_relevant, builder.has_camera(), seam_edges_, rings_);
+    const DeformationState start = *state;
     if (!level_one_->Solve(builder, level_one, options, state, &summary)) return summary;
 
-    // PI nodes follow even when Level I ran out of time: a seam left torn would be no usable state.
-    // The caller's stop is obeyed, time is only cut to what is left.
     const SolveStatus level_one_status = summary.status;
     const std::string level_one_message = summary.message;
-    SolverOptions level_two_options = options;
-    constexpr double kLeastTime = 1e-3;
-    level_two_options.time_limit_s = std::max(kLeastTime, options.time_limit_s - timer.Seconds());
-    level_two_->Solve(builder, LevelTwoConfig(point_relevant), level_two_options, state, &summary);
+    const SolverOptions level_two_options =
+        LevelTwoOptions(options, summary, options.time_limit_s - timer.Seconds());
+    if (!level_two_->Solve(
+            builder, LevelTwoConfig(point_relevant), level_two_options, state, &summary)) {
+      *state = start;
+      return summary;
+    }
     if (level_one_status != SolveStatus::kConverged) {
       summary.status = level_one_status;
       summary.message = level_one_message;
@@ -72,6 +74,25 @@ class TwoLevelStrategy final : public Strategy {
   }
 
  private:
+  // Where Level I was stopped early, PI nodes still follow by a few steps, whatever time or caller
+  // say: a torn seam would be no usable state.
+  static SolverOptions LevelTwoOptions(const SolverOptions& options,
+                                       const SolveSummary& level_one,
+                                       double time_left_s) {
+    constexpr int kFollowingSteps = 3;
+    constexpr double kLeastTime = 1e-3;
+    SolverOptions level_two = options;
+    level_two.time_limit_s = std::max(kLeastTime, time_left_s);
+    if (level_one.status == SolveStatus::kTimeLimit ||
+        level_one.status == SolveStatus::kInterrupted) {
+      const bool moved = level_one.levels.back().iterations > 0;
+      level_two.max_iterations = moved ? std::min(kFollowingSteps, options.max_iterations) : 0;
+      level_two.time_limit_s = std::numeric_limits<double>::max();
+      level_two.should_stop = nullptr;
+    }
+    return level_two;
+  }
+
   int rings_;
   SeamEdges seam_edges_;
   // Each keeps the structure of its own level.

@@ -34,11 +34,13 @@ struct SolverOptions {
   double parameter_tolerance = 1e-8;
   // Levenberg-Marquardt damping is 1 / radius at the start, > 0. Large: nearly Gauss-Newton.
   double initial_trust_region_radius = 1e4;
-  // Threads of residual and Jacobian evaluation, >= 1. The result doesn't depend on it.
+  // Threads of residual and Jacobian evaluation, >= 1. The result doesn't depend on it: that of
+  // kBlock to the bit, that of kCeres, which sums up the cost by thread, to rounding.
   int num_threads = 1;
-  // Wall time of the whole solve, seconds, > 0.
+  // Wall time of the whole solve, seconds, > 0. The step under way is finished, and a two-level
+  // solve then lets PI nodes follow by up to three steps.
   double time_limit_s = 1e9;
-  // Asked after every iteration; true ends the solve with the best state so far.
+  // Asked after every iteration; true ends the solve with the best state so far, in the same way.
   std::function<bool()> should_stop;
 
   // False, with the option and what was expected in `error`, when a value is out of range.
