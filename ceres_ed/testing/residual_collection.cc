@@ -4,7 +4,6 @@
 #include <set>
 #include <utility>
 
-
 namespace ceres_ed {
 namespace {
 

@@ -1,0 +1,60 @@
+// ed_apply: the deformation that ed_fit found, on any other cloud.
+#include <ceres_ed/graph/warp.h>
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/io/warp_io.h>
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <apps/support/program.h>
+#include <gflags/gflags.h>
+#include <glog/logging.h>
+
+DEFINE_string(output, "", "PLY file to write: IN.ply deformed, all else of it kept; required");
+
+namespace ceres_ed {
+namespace {
+
+Outcome Run(const std::vector<std::string>& arguments) {
+  if (FLAGS_output.empty()) return Outcome::Usage("flag --output is required");
+  const StatusOr<Warp> warp = ReadWarp(arguments[0]);
+  if (!warp.ok()) return Outcome::BadInput(warp.status());
+  StatusOr<LoadedCloud> loaded = LoadCloud(arguments[1]);
+  if (!loaded.ok()) return Outcome::BadInput(loaded.status());
+
+  PointCloud& cloud = loaded->cloud;
+  if (Status status = ApplyWarp(*warp, &cloud); !status.ok()) {
+    return Outcome::BadInput(Status::Error(arguments[0] + ": " + status.message()));
+  }
+  const Status saved = SaveCloud(FLAGS_output,
+                                 loaded->document,
+                                 loaded->vertex_of_point,
+                                 cloud.points,
+                                 cloud.HasNormals() ? &cloud.normals : nullptr);
+  if (!saved.ok()) return Outcome::BadInput(saved);
+
+  for (const std::string& warning : loaded->warnings) LOG(WARNING) << warning;
+  std::printf("%s: %zu points deformed by %d nodes\n",
+              FLAGS_output.c_str(),
+              cloud.size(),
+              warp->graph.num_nodes());
+  return Outcome::Done();
+}
+
+const ProgramInfo kProgram = {
+    "ed_apply",
+    "WARP.json IN.ply --output=OUT.ply",
+    "Deforms a cloud or mesh with the warp that `ed_fit --warp=WARP.json` has written: the full "
+    "resolution of a model that was fitted coarsely, or annotations on it. IN.ply is in the frame "
+    "and unit of ed_fit's SOURCE; its faces, colours and other properties are kept.",
+    "ed_apply warp.json full_resolution.ply --output=deformed.ply",
+    2,
+    2};
+
+}  // namespace
+}  // namespace ceres_ed
+
+int main(int argc, char** argv) {
+  return ceres_ed::RunProgram(ceres_ed::kProgram, argc, argv, ceres_ed::Run);
+}

@@ -1,0 +1,118 @@
+// An energy of your own: a floor that no point may sink through, written as a functor on a warped
+// point. A sheet is held at one edge and pulled down in the middle; the free half goes on down,
+// unless there is a floor.
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/point_energy.h>
+#include <ceres_ed/registration/fit.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <utility>
+
+using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a program, not a header
+
+namespace {
+
+// What the energy says of one point. Ceres differentiates it; the library supplies the warp.
+struct FloorFunctor {
+  static constexpr int kNumResiduals = 1;
+
+  template <typename T>
+  bool operator()(const T* point, T* residual) const {
+    residual[0] = point[2] < height ? height - point[2] : T(0.0);
+    return true;
+  }
+
+  double height;
+};
+
+// Where its residuals are: on every point. A prior, for it observes nothing.
+class FloorEnergy : public EnergyTerm {
+ public:
+  explicit FloorEnergy(double height) : height_(height) {}
+
+  EnergyKind kind() const override { return EnergyKind::kPrior; }
+
+  void AddResiduals(const EnergyContext& context, ResidualSink* sink) const override {
+    for (int i = 0; i < static_cast<int>(context.points->size()); ++i) {
+      AddPointResidual(context, i, FloorFunctor{height_}, 1.0, sink);
+    }
+  }
+
+ private:
+  double height_;
+};
+
+// What users are told about it. The same function makes a plugin: CERES_ED_PLUGIN(RegisterFloor).
+Status RegisterFloor(EnergyRegistry* registry) {
+  EnergyInfo info;
+  info.name = "floor";
+  info.summary = "no point sinks below a height";
+  info.equation = "max(0, height - v~_z)";
+  info.unit = "length";
+  EnergyParameter height;
+  height.name = "height";
+  height.unit = "source diagonals above the source's centre";
+  height.minimum = -10.0;
+  height.maximum = 10.0;
+  height.doc = "where the floor is";
+  info.parameters = {height};
+  return registry->Register(std::move(info), [](const ParameterValues& values) {
+    return std::make_unique<FloorEnergy>(values.Get("height"));
+  });
+}
+
+constexpr int kSide = 21;
+
+// A sheet of kSide x kSide points around the origin with a diagonal of 1.
+PointCloud MakeSheet() {
+  const double step = 1.0 / (std::sqrt(2.0) * (kSide - 1));
+  PointCloud sheet;
+  for (int i = 0; i < kSide * kSide; ++i) {
+    const int column = i % kSide;
+    const int row = i / kSide;
+    sheet.points.push_back(step * Eigen::Vector3d(column - kSide / 2, row - kSide / 2, 0.0));
+    if (column + 1 == kSide || row + 1 == kSide) continue;
+    sheet.triangles.push_back({i, i + 1, i + kSide});
+    sheet.triangles.push_back({i + 1, i + kSide + 1, i + kSide});
+  }
+  return sheet;
+}
+
+// The height of the lowest point of the fitted sheet.
+double LowestPoint(const EnergyRegistry& registry, const std::vector<EnergySpec>& energies) {
+  FitInput input;
+  input.source = MakeSheet();
+  for (int i = 0; i < kSide; ++i) {
+    input.fixed_points.push_back(kSide * i);
+    const int middle = kSide * i + kSide / 2;
+    input.landmarks.push_back({middle, input.source.points[middle] - Eigen::Vector3d(0, 0, 0.1)});
+  }
+  FitOptions options;
+  options.extra_energies = energies;
+  const StatusOr<FitResult> fit = Fit(input, options, registry);
+  CHECK(fit.ok()) << fit.status().message();
+  CHECK(fit->IsUsable()) << fit->message;
+  double lowest = 0.0;
+  for (const Eigen::Vector3d& point : fit->points) lowest = std::min(lowest, point.z());
+  return lowest;
+}
+
+}  // namespace
+
+int main() {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  CHECK(RegisterFloor(&registry).ok());
+
+  EnergySpec floor;
+  floor.name = "floor";
+  floor.weight = 1e4;
+  floor.parameters["height"] = -0.12;
+  const double without = LowestPoint(registry, {});
+  const double with = LowestPoint(registry, {floor});
+  std::printf("lowest point: %.3f without the floor, %.3f with it at -0.12\n", without, with);
+  return without < -0.15 && with > -0.125 ? 0 : 1;
+}

@@ -1,0 +1,179 @@
+#include "apps/fit_report.h"
+
+#include <ceres_ed/version.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include <apps/support/report.h>
+
+namespace ceres_ed {
+namespace {
+
+using nlohmann::ordered_json;
+
+// Distances of points that a user has given places for.
+struct PlaceErrors {
+  int count = 0;
+  double rms = 0.0;
+  double max = 0.0;
+};
+
+PlaceErrors MeasureLandmarks(const FitRun& run) {
+  PlaceErrors errors;
+  double sum = 0.0;
+  for (const PointConstraint& landmark : run.files->input.landmarks) {
+    if (run.result->points.empty()) break;
+    const double error = (run.result->points[landmark.point] - landmark.position).norm();
+    sum += error * error;
+    errors.max = std::max(errors.max, error);
+  }
+  errors.count = static_cast<int>(run.files->input.landmarks.size());
+  if (errors.count > 0) errors.rms = std::sqrt(sum / errors.count);
+  return errors;
+}
+
+int NumPointRelevant(const FitResult& result) {
+  return static_cast<int>(result.point_relevant.size() - std::count(result.point_relevant.begin(),
+                                                                    result.point_relevant.end(),
+                                                                    0));
+}
+
+ordered_json CloudReport(const CloudFile& file) {
+  if (file.path.empty()) return nullptr;
+  return {{"path", file.path},
+          {"points", file.points},
+          {"faces", file.faces},
+          {"diagonal", file.diagonal}};
+}
+
+ordered_json NodesReport(const FitResult& result) {
+  const int total = result.warp.graph.num_nodes();
+  const int pr = NumPointRelevant(result);
+  return {
+      {"total", total}, {"pr", pr}, {"pi", total - pr}, {"edges", result.warp.graph.num_edges()}};
+}
+
+ordered_json EnergyReport(const FitResult& result) {
+  ordered_json terms = ordered_json::object();
+  for (const TermEnergy& term : result.final_energy.terms) {
+    // A user may add an energy that is there already.
+    std::string name = term.label;
+    for (int copy = 2; terms.contains(name); ++copy) name = term.label + "_" + std::to_string(copy);
+    terms[name] = {{"weighted", term.weighted}, {"raw", term.raw}, {"residuals", term.residuals}};
+  }
+  return {{"initial", result.initial_energy.Total()},
+          {"final", result.final_energy.Total()},
+          {"terms", terms}};
+}
+
+ordered_json RigidReport(const Similarity& rigid) {
+  constexpr double kDegreesPerRadian = 180.0 / M_PI;
+  const double angle = Eigen::AngleAxisd(rigid.rotation).angle();
+  const Eigen::Vector3d& translation = rigid.translation;
+  return {{"rotation_deg", std::min(angle, 2.0 * M_PI - angle) * kDegreesPerRadian},
+          {"translation", {translation.x(), translation.y(), translation.z()}},
+          {"scale", rigid.scale}};
+}
+
+ordered_json DisplacementReport(const FitRun& run) {
+  double sum = 0.0;
+  double max = 0.0;
+  const std::vector<Eigen::Vector3d>& points = run.result->points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double distance = (points[i] - run.files->input.source.points[i]).norm();
+    sum += distance;
+    max = std::max(max, distance);
+  }
+  return {{"mean", points.empty() ? 0.0 : sum / static_cast<double>(points.size())}, {"max", max}};
+}
+
+ordered_json TimeReport(const FitRun& run) {
+  const FitTimes& times = run.result->times;
+  const bool has_levels = run.settings->options.strategy.mode == SolveMode::kTwoLevel;
+  return {{"total", run.total_s},
+          {"load", run.load_s},
+          {"rigid", times.rigid},
+          {"prepare", times.prepare},
+          {"graph", times.graph},
+          {"associate", times.associate},
+          {"build", times.build},
+          {"solve", times.solve},
+          {"level1", has_levels ? times.level1 : 0.0},
+          {"level2", has_levels ? times.level2 : 0.0},
+          {"write", run.write_s}};
+}
+
+ordered_json WarningsReport(const FitRun& run) {
+  ordered_json warnings = run.files->warnings;
+  for (const std::string& warning : run.result->warnings) warnings.push_back(warning);
+  return warnings;
+}
+
+template <typename... Arguments>
+std::string Line(const char* format, Arguments... arguments) {
+  char text[256];
+  std::snprintf(text, sizeof(text), format, arguments...);
+  return std::string(text) + "\n";
+}
+
+}  // namespace
+
+ordered_json FitReport(const FitRun& run) {
+  const FitResult& result = *run.result;
+  const PlaceErrors landmarks = MeasureLandmarks(run);
+  return {
+      {"program", "ed_fit"},
+      {"version", kVersion},
+      {"mode", SolveModeName(run.settings->options.strategy.mode)},
+      {"status", SolveStatusName(result.status)},
+      {"message", result.message},
+      {"source", CloudReport(run.files->source)},
+      {"target", CloudReport(run.files->target)},
+      {"nodes", NodesReport(result)},
+      {"inliers", result.matches.inliers},
+      {"outer_iterations", result.outer_iterations},
+      {"solver_iterations", result.solver_iterations},
+      {"energy", EnergyReport(result)},
+      {"rms",
+       {{"point_to_plane", result.matches.rms_plane},
+        {"point_to_point", result.matches.rms_point}}},
+      {"landmarks", {{"count", landmarks.count}, {"rms", landmarks.rms}, {"max", landmarks.max}}},
+      {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
+      {"rigid", RigidReport(result.rigid)},
+      {"displacement", DisplacementReport(run)},
+      {"time_s", TimeReport(run)},
+      {"threads", run.settings->options.num_threads},
+      {"warnings", WarningsReport(run)},
+      {"flags", FlagsReport()},
+      {"backend", BackendReport()}};
+}
+
+std::string FitSummary(const FitRun& run) {
+  const FitResult& result = *run.result;
+  const int nodes = result.warp.graph.num_nodes();
+  const int pr = NumPointRelevant(result);
+  std::string summary =
+      Line("status     %s: %s", SolveStatusName(result.status).c_str(), result.message.c_str()) +
+      Line("nodes      %d (%d PR, %d PI)", nodes, pr, nodes - pr);
+  if (!run.files->target.path.empty()) {
+    summary +=
+        Line("inliers    %d of %d matches", result.matches.inliers, result.matches.candidates) +
+        Line("rms        %.4g to planes, %.4g to points, target units",
+             result.matches.rms_plane,
+             result.matches.rms_point);
+  }
+  if (const PlaceErrors errors = MeasureLandmarks(run); errors.count > 0) {
+    summary += Line(
+        "landmarks  %d, rms %.4g, max %.4g, target units", errors.count, errors.rms, errors.max);
+  }
+  if (const std::size_t fixed = run.files->input.fixed_points.size(); fixed > 0) {
+    summary += Line("fixed      %zu, max %.4g, target units", fixed, result.max_fixed_error);
+  }
+  return summary + Line("time       %.2f s", run.total_s) + "output     " + run.settings->output +
+         "\n";
+}
+
+}  // namespace ceres_ed

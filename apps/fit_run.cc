@@ -1,0 +1,97 @@
+#include "apps/fit_run.h"
+
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/plugin/plugin_loader.h>
+#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/util/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include <apps/fit_files.h>
+#include <apps/fit_flags.h>
+#include <apps/fit_report.h>
+#include <apps/support/progress_bar.h>
+#include <apps/support/report.h>
+
+namespace ceres_ed {
+namespace {
+
+StatusOr<FitResult> FitWithProgress(const FitInput& input,
+                                    FitSettings settings,
+                                    double seconds_gone,
+                                    const EnergyRegistry& registry) {
+  FitOptions& options = settings.options;
+  options.time_limit_s = std::max(1e-3, options.time_limit_s - seconds_gone);
+  options.should_stop = [] { return StopRequested().load(); };
+  constexpr int kSteps = 100;
+  ProgressBar bar("ed_fit", kSteps, settings.quiet);
+  options.on_progress = [&bar](const FitProgress& progress) {
+    bar.Update(static_cast<int>(std::lround(kSteps * progress.fraction)),
+               progress.stage + ", " + std::to_string(progress.inliers) + " inliers");
+  };
+  return Fit(input, options, registry);
+}
+
+// Writes what there is and says how the run ended.
+Outcome Conclude(FitRun run, const Timer& clock) {
+  const FitSettings& settings = *run.settings;
+  const FitResult& result = *run.result;
+  for (const auto* warnings : {&run.files->warnings, &result.warnings}) {
+    for (const std::string& warning : *warnings) {
+      std::fprintf(stderr, "ed_fit: warning: %s\n", warning.c_str());
+    }
+  }
+  if (result.IsUsable()) {
+    const Timer timer;
+    Status status = WriteFitFiles(settings, *run.files, result);
+    if (!status.ok()) return Outcome::BadInput(status);
+    run.write_s = timer.Seconds();
+  }
+  run.total_s = clock.Seconds();
+  if (!settings.report.empty()) {
+    Status status = WriteReport(settings.report, FitReport(run));
+    if (!status.ok()) return Outcome::BadInput(status);
+  }
+  if (!result.IsUsable()) return Outcome::NoResult(Status::Error(result.message));
+  if (!settings.quiet) std::fputs(FitSummary(run).c_str(), stdout);
+  const bool stopped =
+      result.status == SolveStatus::kTimeLimit || result.status == SolveStatus::kInterrupted;
+  return stopped ? Outcome::StoppedEarly(result.message + " in " + settings.output)
+                 : Outcome::Done();
+}
+
+}  // namespace
+
+Outcome RunFit(const std::vector<std::string>& arguments) {
+  const Timer clock;
+  StopRequested();
+  const StatusOr<FitSettings> settings = ReadFitFlags();
+  if (!settings.ok()) return Outcome::Usage(settings.status().message());
+  if (arguments.size() == 1 && settings->landmarks.empty()) {
+    return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
+  }
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  if (!settings->plugin.empty()) {
+    Status status = LoadPlugin(settings->plugin, &registry);
+    if (!status.ok()) return Outcome::BadInput(status);
+  }
+  Status status = CheckEnergies(*settings, registry);
+  if (!status.ok()) return Outcome::Usage(status.message());
+  status = CheckOutputs(*settings);
+  if (!status.ok()) return Outcome::BadInput(status);
+
+  const StatusOr<FitFiles> files = LoadFitFiles(arguments, *settings);
+  if (!files.ok()) return Outcome::BadInput(files.status());
+  const double load_s = clock.Seconds();
+  const StatusOr<FitResult> result = FitWithProgress(files->input, *settings, load_s, registry);
+  if (!result.ok()) {
+    const std::string inputs = arguments[0] + (arguments.size() > 1 ? ", " + arguments[1] : "");
+    return Outcome::BadInput(Status::Error(inputs + ": " + result.status().message()));
+  }
+  return Conclude({&*settings, &*files, &*result, load_s}, clock);
+}
+
+}  // namespace ceres_ed

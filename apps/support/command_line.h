@@ -1,0 +1,40 @@
+// The command line over gflags: one-sentence errors and a --help of one screen.
+#ifndef CERES_ED_APPS_SUPPORT_COMMAND_LINE_H_
+#define CERES_ED_APPS_SUPPORT_COMMAND_LINE_H_
+
+#include <ceres_ed/util/status.h>
+
+#include <string>
+#include <vector>
+
+#include <apps/support/program.h>
+#include <gflags/gflags.h>
+
+namespace ceres_ed {
+
+// What a command line asks for; flags have been set when it is returned.
+struct CommandLine {
+  enum class Request { kRun, kHelp, kVersion };
+
+  Request request = Request::kRun;
+  std::vector<std::string> arguments;
+};
+
+// Sets the flags that are named on the command line and returns the rest. Takes --name=value,
+// --name value, --flag and --noflag, with one dash or two; `--` ends the flags. Error: unknown
+// flag, bad value, wrong number of positional arguments.
+StatusOr<CommandLine> ParseCommandLine(const ProgramInfo& info, int argc, const char* const* argv);
+
+// Returns the text of --help: at most 100 columns.
+std::string HelpText(const ProgramInfo& info);
+
+// Returns the text of --version: ceres_ed, Ceres, sparse library, BLAS and hardware threads, a line
+// each.
+std::string VersionText();
+
+// Returns the program's own flags, those defined under apps/, by name.
+std::vector<gflags::CommandLineFlagInfo> OwnFlags();
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_APPS_SUPPORT_COMMAND_LINE_H_

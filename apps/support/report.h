@@ -1,0 +1,25 @@
+// JSON reports of the programs.
+#ifndef CERES_ED_APPS_SUPPORT_REPORT_H_
+#define CERES_ED_APPS_SUPPORT_REPORT_H_
+
+#include <ceres_ed/util/status.h>
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+namespace ceres_ed {
+
+// Writes `report` under a temporary name and renames it to `path`. NaN and infinity, which JSON
+// lacks, become null, and bytes of a path that are no UTF-8 become U+FFFD. Error: names the path.
+Status WriteReport(const std::string& path, const nlohmann::ordered_json& report);
+
+// Returns every flag of the program, as it is now, with its type: the "flags" of a report.
+nlohmann::ordered_json FlagsReport();
+
+// Returns {"ceres", "sparse_library", "blas"}: the "backend" of a report.
+nlohmann::ordered_json BackendReport();
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_APPS_SUPPORT_REPORT_H_

@@ -1,0 +1,110 @@
+#include <ceres_ed/graph/warp.h>
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/io/warp_io.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <test/cli/run_program.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string TempPath(const std::string& name) { return ::testing::TempDir() + "/ed_apply_" + name; }
+
+// Six nodes that all turn by 90 degrees about z and move by (1, 2, 3), so every point must too.
+std::string WriteTurn(const std::string& path) {
+  Warp warp;
+  for (int j = 0; j < 6; ++j) warp.graph.AddNode({0.5 * j, 0.1 * j * j, 0.0});
+  warp.state.Resize(6);
+  Eigen::Matrix3d turn;
+  turn << 0, -1, 0, 1, 0, 0, 0, 0, 1;
+  for (int j = 0; j < 6; ++j) {
+    const Eigen::Vector3d& g = warp.graph.position(j);
+    MutableNodeAffine(warp.state.node(j)) = turn;
+    MutableNodeTranslation(warp.state.node(j)) = turn * g + Eigen::Vector3d(1, 2, 3) - g;
+  }
+  warp.binding.distance = DistanceRule::kEuclidean;
+  EXPECT_TRUE(WriteWarp(path, warp).ok());
+  return path;
+}
+
+std::string WriteTriangle(const std::string& path) {
+  std::ofstream(path) << "ply\nformat ascii 1.0\ncomment kept\nelement vertex 3\n"
+                         "property double x\nproperty double y\nproperty double z\n"
+                         "property int label\nelement face 1\n"
+                         "property list uchar int vertex_indices\nend_header\n"
+                         "0 0 0 7\n1 0 0 8\n0 2 0.5 9\n3 0 1 2\n";
+  return path;
+}
+
+ProgramResult Apply(const std::vector<std::string>& arguments) {
+  return RunProgramFile(AppPath("ed_apply"), arguments);
+}
+
+TEST(EdApply, MovesEveryPointAndKeepsAllElse) {
+  const std::string out = TempPath("out.ply");
+  const ProgramResult result =
+      Apply({WriteTurn(TempPath("w.json")), WriteTriangle(TempPath("in.ply")), "--output=" + out});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, out + ": 3 points deformed by 6 nodes\n");
+
+  const StatusOr<LoadedCloud> loaded = LoadCloud(out);
+  ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+  const std::vector<Eigen::Vector3d> expected = {{1, 2, 3}, {1, 3, 3}, {-1, 2, 3.5}};
+  ASSERT_EQ(loaded->cloud.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_LT((loaded->cloud.points[i] - expected[i]).norm(), 1e-14) << "point " << i;
+  }
+  const std::vector<std::array<int, 3>> triangles = {{0, 1, 2}};
+  EXPECT_EQ(loaded->cloud.triangles, triangles);
+  const PlyProperty* labels = loaded->document.Find("vertex")->Find("label");
+  ASSERT_NE(labels, nullptr);
+  EXPECT_EQ(labels->values, (std::vector<double>{7, 8, 9}));
+}
+
+TEST(EdApply, NeedsAnOutput) {
+  const ProgramResult result = Apply({"w.json", "in.ply"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "ed_apply: flag --output is required; see --help\n");
+}
+
+TEST(EdApply, NamesTheInputThatIsBad) {
+  const std::string warp = WriteTurn(TempPath("w2.json"));
+  const std::string cloud = WriteTriangle(TempPath("in2.ply"));
+  const std::string output = "--output=" + TempPath("never.ply");
+  std::ofstream(TempPath("bad.json")) << "{";
+  std::ofstream(TempPath("bad.ply")) << "ply\n";
+  const std::vector<std::vector<std::string>> bad = {{"/nowhere/w.json", cloud},
+                                                     {warp, "/nowhere/in.ply"},
+                                                     {TempPath("bad.json"), cloud},
+                                                     {warp, TempPath("bad.ply")}};
+  for (const auto& arguments : bad) {
+    const ProgramResult result = Apply({arguments[0], arguments[1], output});
+    EXPECT_EQ(result.exit_code, 2);
+    ASSERT_EQ(SplitLines(result.err).size(), 1u) << result.err;
+    EXPECT_THAT(result.err, StartsWith("ed_apply: "));
+    EXPECT_THAT(result.err, HasSubstr(arguments[0] == warp ? arguments[1] : arguments[0]));
+    EXPECT_FALSE(std::ifstream(TempPath("never.ply")).good());
+  }
+}
+
+TEST(EdApply, NamesAnOutputThatCannotBeWritten) {
+  const ProgramResult result = Apply({WriteTurn(TempPath("w3.json")),
+                                      WriteTriangle(TempPath("in3.ply")),
+                                      "--output=/nowhere/out.ply"});
+  EXPECT_EQ(result.exit_code, 2);
+  ASSERT_EQ(SplitLines(result.err).size(), 1u) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("/nowhere/out.ply"));
+}
+
+}  // namespace
+}  // namespace ceres_ed

@@ -1,0 +1,115 @@
+// What ed_fit says: the summary, and every field of report.json.
+#include <ceres_ed/geometry/bounding_box.h>
+
+#include <gmock/gmock.h>
+#include <test/cli/ed_fit_test_util.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::StartsWith;
+
+TEST_F(EdFitTest, SumsUpOnStdoutUnlessQuiet) {
+  const std::vector<std::string> lines = SplitLines(FitPair().out);
+  ASSERT_EQ(lines.size(), 6u);
+  const char* names[] = {"status     ", "nodes      ", "inliers    ", "rms        ", "time       "};
+  for (int i = 0; i < 5; ++i) EXPECT_THAT(lines[i], StartsWith(names[i]));
+  EXPECT_EQ(lines[5], "output     " + (dir_ / "out.ply"));
+  const ProgramResult quiet = FitPair({"--quiet"});
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(EdFitTest, ReportsEveryFieldWithItsType) {
+  ASSERT_EQ(FitPair({"--report=" + (dir_ / "report.json")}).exit_code, 0);
+  const nlohmann::json report = Report();
+  const auto expect = [&report](bool (nlohmann::json::*is_type)() const noexcept,
+                                const std::vector<std::string>& fields) {
+    for (const std::string& field : fields) {
+      const nlohmann::json::json_pointer pointer("/" + field);
+      ASSERT_TRUE(report.contains(pointer)) << field;
+      EXPECT_TRUE((report[pointer].*is_type)()) << field << " is " << report[pointer];
+    }
+  };
+  using Json = nlohmann::json;
+  expect(&Json::is_string,
+         {"program",
+          "version",
+          "mode",
+          "status",
+          "message",
+          "source/path",
+          "target/path",
+          "backend/ceres",
+          "backend/sparse_library",
+          "backend/blas",
+          "flags/output",
+          "flags/loss"});
+  expect(&Json::is_number_integer,
+         {"source/points",
+          "source/faces",
+          "target/points",
+          "target/faces",
+          "nodes/total",
+          "nodes/pr",
+          "nodes/pi",
+          "nodes/edges",
+          "inliers",
+          "outer_iterations",
+          "solver_iterations",
+          "energy/terms/rotation/residuals",
+          "threads",
+          "flags/rings"});
+  expect(&Json::is_number,
+         {"source/diagonal",
+          "target/diagonal",
+          "energy/initial",
+          "energy/final",
+          "energy/terms/rotation/weighted",
+          "energy/terms/regularization/raw",
+          "energy/terms/point_to_plane/raw",
+          "rms/point_to_plane",
+          "rms/point_to_point",
+          "rigid/rotation_deg",
+          "rigid/translation/2",
+          "rigid/scale",
+          "displacement/mean",
+          "displacement/max",
+          "time_s/total",
+          "time_s/load",
+          "time_s/graph",
+          "time_s/associate",
+          "time_s/build",
+          "time_s/solve",
+          "time_s/level1",
+          "time_s/level2",
+          "time_s/write",
+          "flags/node_spacing"});
+  expect(&Json::is_array, {"warnings", "rigid/translation"});
+  expect(&Json::is_boolean, {"flags/rigid_first", "flags/quiet"});
+}
+
+TEST_F(EdFitTest, ReportsFiguresThatAgreeWithTheFiles) {
+  ASSERT_EQ(FitPair({"--report=" + (dir_ / "report.json")}).exit_code, 0);
+  const nlohmann::json report = Report();
+  EXPECT_EQ(report["program"], "ed_fit");
+  EXPECT_EQ(report["mode"], "batch");
+  EXPECT_EQ(report["source"]["points"], 24 * 12);
+  EXPECT_EQ(report["source"]["faces"], 2 * 24 * 12);
+  const LoadedCloud source = Load("source.ply");
+  const LoadedCloud fitted = Load("out.ply");
+  EXPECT_NEAR(report["source"]["diagonal"], Diagonal(source.cloud.points), 1e-12);
+  const double moved = LargestDistance(source.cloud.points, fitted.cloud.points);
+  EXPECT_NEAR(report["displacement"]["max"], moved, 1e-12);
+  EXPECT_EQ(report["nodes"]["total"], int(report["nodes"]["pr"]) + int(report["nodes"]["pi"]));
+  double sum = 0.0;
+  for (const auto& term : report["energy"]["terms"]) sum += double(term["weighted"]);
+  EXPECT_NEAR(report["energy"]["final"], sum, 1e-9 * sum);
+  EXPECT_LT(report["energy"]["final"], report["energy"]["initial"]);
+  EXPECT_GT(report["rms"]["point_to_plane"], 0.0);
+  EXPECT_LT(report["rms"]["point_to_plane"], kRingFacets);
+  EXPECT_GT(report["time_s"]["total"], report["time_s"]["solve"]);
+}
+
+}  // namespace
+}  // namespace ceres_ed

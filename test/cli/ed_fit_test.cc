@@ -1,0 +1,206 @@
+// What ed_fit makes of good inputs.
+#include <ceres_ed/geometry/normals.h>
+#include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/registration/evaluation.h>
+
+#include <algorithm>
+#include <map>
+
+#include <gmock/gmock.h>
+#include <test/cli/ed_fit_test_util.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+TEST_F(EdFitTest, PutsTheSourceOnTheTarget) {
+  const ProgramResult result = FitPair();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const PointCloud target = Load("target.ply").cloud;
+  const double before = Summarize(SurfaceDistances(Load("source.ply").cloud.points, target)).max;
+  const double after = Summarize(SurfaceDistances(Load("out.ply").cloud.points, target)).max;
+  EXPECT_GT(before, 0.1);
+  EXPECT_LT(after, kRingFacets);
+}
+
+TEST_F(EdFitTest, KeepsQuadsOrderAndOtherProperties) {
+  RingOptions rich;
+  rich.quads = rich.extras = true;
+  WritePair(rich, {});
+  ASSERT_EQ(FitPair().exit_code, 0);
+  const LoadedCloud source = Load("source.ply");
+  const LoadedCloud fitted = Load("out.ply");
+  EXPECT_EQ(fitted.document.comments, source.document.comments);
+  for (const char* name : {"red", "label"}) {
+    EXPECT_EQ(fitted.document.Find("vertex")->Find(name)->values,
+              source.document.Find("vertex")->Find(name)->values);
+  }
+  const PlyProperty* faces = fitted.document.Find("face")->Find("vertex_indices");
+  EXPECT_EQ(faces->list_sizes, std::vector<std::uint32_t>(24 * 12, 4));
+  EXPECT_EQ(faces->values, source.document.Find("face")->Find("vertex_indices")->values);
+}
+
+TEST_F(EdFitTest, WarpsTheNormalsInTheFile) {
+  RingOptions rich;
+  rich.extras = true;
+  WritePair(rich, {});
+  ASSERT_EQ(FitPair().exit_code, 0);
+  const PointCloud source = Load("source.ply").cloud;
+  const PointCloud fitted = Load("out.ply").cloud;
+  const std::vector<Eigen::Vector3d> expected = ComputeVertexNormals(fitted);
+  const auto mean_angle = [&expected](const std::vector<Eigen::Vector3d>& normals) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < normals.size(); ++i) {
+      EXPECT_NEAR(normals[i].norm(), 1.0, 1e-6);
+      sum += std::acos(std::min(1.0, normals[i].dot(expected[i])));
+    }
+    return sum / static_cast<double>(normals.size());
+  };
+  // What is left is how coarse the mesh is.
+  EXPECT_LT(mean_angle(fitted.normals), 0.5 * mean_angle(source.normals));
+}
+
+TEST_F(EdFitTest, WarpDoesThroughEdApplyWhatTheFitDid) {
+  ASSERT_EQ(FitPair({"--warp=" + (dir_ / "warp.json")}).exit_code, 0);
+  const auto apply = [this](const std::string& in) {
+    return RunProgramFile(
+        AppPath("ed_apply"),
+        {dir_ / "warp.json", dir_ / in, "--output=" + (dir_ / ("applied_" + in))});
+  };
+  ASSERT_EQ(apply("source.ply").exit_code, 0);
+  EXPECT_LT(LargestDistance(Load("applied_source.ply").cloud.points, Load("out.ply").cloud.points),
+            1e-7 * kRingDiagonal);
+  RingOptions dense;
+  dense.columns = 96;
+  dense.rows = 48;
+  WriteBytes(dir_ / "dense.ply", RingPly(dense));
+  ASSERT_EQ(apply("dense.ply").exit_code, 0);
+  // Every fourth point of the dense ring is one of the source.
+  const std::vector<Eigen::Vector3d> fine = Load("applied_dense.ply").cloud.points;
+  ASSERT_EQ(fine.size(), 96u * 48u);
+  const PointCloud target = Load("target.ply").cloud;
+  EXPECT_LT(Summarize(SurfaceDistances(fine, target)).max, 2.0 * kRingFacets);
+}
+
+TEST_F(EdFitTest, WritesTheGraphOfTheReport) {
+  ASSERT_EQ(FitPair({"--graph=" + (dir_ / "graph.ply"),
+                     "--warp=" + (dir_ / "warp.json"),
+                     "--report=" + (dir_ / "report.json")})
+                .exit_code,
+            0);
+  const nlohmann::json report = Report();
+  const LoadedCloud graph = Load("graph.ply");
+  EXPECT_EQ(graph.document.Find("vertex")->count, report["nodes"]["total"]);
+  EXPECT_EQ(graph.document.Find("edge")->count, report["nodes"]["edges"]);
+  const std::vector<double>& pr = graph.document.Find("vertex")->Find("pr")->values;
+  EXPECT_EQ(std::count(pr.begin(), pr.end(), 1.0), report["nodes"]["pr"]);
+  const StatusOr<Warp> warp = ReadWarp(dir_ / "warp.json");
+  ASSERT_TRUE(warp.ok()) << warp.status().message();
+  for (int j = 0; j < warp->graph.num_nodes(); ++j) {
+    const Eigen::Vector3d moved =
+        warp->graph.position(j) + Eigen::Vector3d(NodeTranslation(warp->state.node(j)));
+    EXPECT_LT((graph.cloud.points[j] - warp->target_from_source * moved).norm(), 1e-6);
+  }
+}
+
+TEST_F(EdFitTest, SolvesInTwoLevels) {
+  for (const char* boundary : {"keep", "cut"}) {
+    ASSERT_EQ(FitPair({"--mode=two_level",
+                       "--rings=1",
+                       "--boundary=" + std::string(boundary),
+                       "--report=" + (dir_ / "report.json")})
+                  .exit_code,
+              0);
+    EXPECT_EQ(Report()["mode"], "two_level");
+    EXPECT_GT(Report()["time_s"]["level1"], 0.0);
+    const PointCloud target = Load("target.ply").cloud;
+    EXPECT_LT(Summarize(SurfaceDistances(Load("out.ply").cloud.points, target)).max,
+              2.0 * kRingFacets);
+  }
+}
+
+TEST_F(EdFitTest, GivesTheSameBytesAtAnyThreadCountAndAgain) {
+  std::map<std::string, std::string> first;
+  for (const char* threads : {"1", "2", "1"}) {
+    ASSERT_EQ(
+        FitPair({"--warp=" + (dir_ / "warp.json"), std::string("--threads=") + threads}).exit_code,
+        0);
+    for (const char* name : {"out.ply", "warp.json"}) {
+      const std::string bytes = ReadBytes(dir_ / name);
+      EXPECT_EQ(first.emplace(name, bytes).first->second, bytes) << name << ", threads " << threads;
+    }
+  }
+}
+
+TEST_F(EdFitTest, GivesTheSameInMillimetresAndMetres) {
+  ASSERT_EQ(FitPair().exit_code, 0);
+  std::vector<Eigen::Vector3d> metres = Load("out.ply").cloud.points;
+  RingOptions scaled;
+  scaled.scale = 1000.0;
+  WritePair(scaled, scaled);
+  // The last flag of a name wins.
+  ASSERT_EQ(FitPair({"--node_spacing=200"}).exit_code, 0);
+  std::vector<Eigen::Vector3d> millimetres = Load("out.ply").cloud.points;
+  for (Eigen::Vector3d& point : millimetres) point /= 1000.0;
+  EXPECT_LT(LargestDistance(metres, millimetres), 1e-6 * kRingDiagonal);
+}
+
+TEST_F(EdFitTest, TakesBarePoints) {
+  RingOptions bare;
+  bare.faces = false;
+  WritePair(bare, bare);
+  ASSERT_EQ(FitPair().exit_code, 0);
+  const LoadedCloud fitted = Load("out.ply");
+  EXPECT_EQ(fitted.document.Find("face"), nullptr);
+  RingOptions truth;
+  truth.bent = true;
+  WriteBytes(dir_ / "mesh.ply", RingPly(truth));
+  EXPECT_LT(Summarize(SurfaceDistances(fitted.cloud.points, Load("mesh.ply").cloud)).max,
+            2.0 * kRingFacets);
+}
+
+TEST_F(EdFitTest, KeepsIslandsAndIsolatedVertices) {
+  RingOptions islands;
+  islands.more_vertices = {"0 0 0.3", "-0.1 0 0", "0.1 0 0", "0 0.1 0"};
+  islands.more_faces = {"3 289 290 291"};
+  WritePair(islands, {});
+  const ProgramResult result = FitPair();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const LoadedCloud fitted = Load("out.ply");
+  EXPECT_EQ(fitted.cloud.size(), 24u * 12u + 4u);
+  EXPECT_EQ(fitted.cloud.triangles.back(), (std::array<int, 3>{289, 290, 291}));
+  // What lies apart follows the ring, which hardly moves there.
+  const std::vector<Eigen::Vector3d> source = Load("source.ply").cloud.points;
+  for (int i = 288; i < 292; ++i) EXPECT_LT((fitted.cloud.points[i] - source[i]).norm(), 0.1);
+}
+
+TEST_F(EdFitTest, WarnsOfVerticesThatAreNotFiniteAndKeepsTheirRows) {
+  RingOptions holes;
+  holes.is_nan = [](int i) { return i == 5 || i == 77; };
+  WritePair(holes, {});
+  const ProgramResult result = FitPair({"--report=" + (dir_ / "report.json")});
+  ASSERT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, StartsWith("ed_fit: warning: " + (dir_ / "source.ply") + ": "));
+  ASSERT_FALSE(Report()["warnings"].empty());
+  EXPECT_THAT(result.err, HasSubstr(std::string(Report()["warnings"][0])));
+  const LoadedCloud fitted = Load("out.ply");
+  EXPECT_EQ(fitted.document.Find("vertex")->count, 24u * 12u);
+  EXPECT_EQ(fitted.cloud.size(), 24u * 12u - 2u);
+  EXPECT_TRUE(std::isnan(fitted.document.Find("vertex")->Find("x")->values[77]));
+}
+
+TEST_F(EdFitTest, AddsAnEnergyOfAPlugin) {
+  const ProgramResult result = FitPair({std::string("--plugin=") + CERES_ED_GOOD_PLUGIN,
+                                        "--energy=anchor:gain=3,weight=0.5;rotation:weight=2",
+                                        "--report=" + (dir_ / "report.json")});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const nlohmann::json terms = Report()["energy"]["terms"];
+  EXPECT_EQ(terms["anchor"]["residuals"], 3 * int(Report()["nodes"]["total"]));
+  EXPECT_EQ(terms["rotation_2"]["residuals"], terms["rotation"]["residuals"]);
+}
+
+}  // namespace
+}  // namespace ceres_ed

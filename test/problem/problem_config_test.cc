@@ -1,0 +1,58 @@
+#include "ceres_ed/problem/problem_config.h"
+
+#include <ceres_ed/testing/test_problem.h>
+
+#include <algorithm>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+// 6 columns of 3 nodes; the first column is PR.
+TestProblem Strip() { return MakeTestProblem({}); }
+std::vector<char> FirstColumns(int columns) {
+  std::vector<char> mask(18, 0);
+  for (int j = 0; j < 3 * columns; ++j) mask[j] = 1;
+  return mask;
+}
+
+TEST(FullConfig, HasEveryNodeAndTheCameraWhereThereIsOne) {
+  const ProblemConfig without = FullConfig(4, false);
+  EXPECT_EQ(without.variable_nodes, std::vector<char>(4, 1));
+  EXPECT_FALSE(without.camera_variable);
+  EXPECT_EQ(without.NumVariableNodes(), 4);
+  EXPECT_TRUE(FullConfig(4, true).camera_variable);
+}
+
+TEST(LevelOneConfig, HasThePointRelevantNodesAndTheirRings) {
+  const TestProblem strip = Strip();
+  for (int rings = 0; rings <= 7; ++rings) {
+    const ProblemConfig config =
+        LevelOneConfig(strip.graph, FirstColumns(1), true, SeamEdges::kCut, rings);
+    EXPECT_EQ(config.variable_nodes, FirstColumns(std::min(6, 1 + rings))) << rings;
+    EXPECT_EQ(config.NumVariableNodes(), 3 * std::min(6, 1 + rings));
+    EXPECT_TRUE(config.camera_variable);
+    EXPECT_EQ(config.seam_edges, SeamEdges::kCut);
+  }
+}
+
+TEST(LevelOneConfig, HoldsEveryNodeWhereNothingIsSeen) {
+  const TestProblem strip = Strip();
+  const ProblemConfig config =
+      LevelOneConfig(strip.graph, std::vector<char>(18, 0), false, SeamEdges::kKeep, 3);
+  EXPECT_EQ(config.NumVariableNodes(), 0);
+  EXPECT_FALSE(config.camera_variable);
+}
+
+TEST(LevelTwoConfig, HasTheRestAndNoCamera) {
+  const ProblemConfig config = LevelTwoConfig(FirstColumns(2));
+  EXPECT_EQ(config.NumVariableNodes(), 12);
+  for (int j = 0; j < 18; ++j) EXPECT_EQ(config.variable_nodes[j] != 0, j >= 6);
+  EXPECT_FALSE(config.camera_variable);
+  EXPECT_EQ(config.seam_edges, SeamEdges::kKeep);
+}
+
+}  // namespace
+}  // namespace ceres_ed

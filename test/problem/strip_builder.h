@@ -1,0 +1,62 @@
+// A test problem with its energies in a builder.
+#ifndef CERES_ED_TEST_PROBLEM_STRIP_BUILDER_H_
+#define CERES_ED_TEST_PROBLEM_STRIP_BUILDER_H_
+
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/testing/test_problem.h>
+
+#include <map>
+#include <string>
+
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+
+// Weights are prime-like, so that a mix-up shows.
+struct StripBuilder {
+  explicit StripBuilder(const TestProblemOptions& options, const std::string& data_energy = "")
+      : problem(MakeTestProblem(options)), builder(problem.graph, options.has_camera) {
+    RegisterBuiltinEnergies(&registry);
+    rotation = Add("rotation", 1.5);
+    regularization = Add("regularization", 2.5);
+    data = Add(data_energy.empty() ? "point_to_point" : data_energy, 3.5);
+  }
+  StripBuilder(const StripBuilder&) = delete;
+  StripBuilder& operator=(const StripBuilder&) = delete;
+
+  // Returns the index of the term.
+  int Add(const std::string& energy,
+          double weight,
+          const LossSpec& loss = {},
+          const std::map<std::string, double>& parameters = {}) {
+    const auto term = registry.Create(energy, parameters);
+    CHECK(term.ok()) << term.status().message();
+    const int index = builder.AddTerm(energy, (*term)->kind(), weight, loss);
+    builder.CollectResiduals(index, **term, problem.Context());
+    return index;
+  }
+
+  TestProblem problem;
+  EnergyRegistry registry;
+  ProblemBuilder builder;
+  int rotation = -1;
+  int regularization = -1;
+  int data = -1;
+};
+
+// The parameters of all nodes and of the camera, to compare to the bit.
+inline std::vector<double> AllParameters(const DeformationState& state) {
+  std::vector<double> all;
+  for (int j = 0; j < state.num_nodes(); ++j) {
+    all.insert(all.end(), state.node(j), state.node(j) + kNodeSize);
+  }
+  const CameraPose& camera = state.camera_from_map;
+  all.insert(all.end(), camera.rotation.coeffs().data(), camera.rotation.coeffs().data() + 4);
+  all.insert(all.end(), camera.translation.data(), camera.translation.data() + 3);
+  return all;
+}
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_TEST_PROBLEM_STRIP_BUILDER_H_
