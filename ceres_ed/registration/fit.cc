@@ -2,8 +2,8 @@
 
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/registration/fit_problem.h>
-#include <ceres_ed/registration/nonrigid_loop.h>
+#include <ceres_ed/registration/coarse_to_fine.h>
+#include <ceres_ed/registration/fit_validation.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -14,55 +14,6 @@
 
 namespace ceres_ed {
 namespace {
-
-// Source and target whose diagonals differ by more than this share no scale: millimetres against
-// metres is 1000, a partial view of a body seldom less than a tenth of it.
-constexpr double kMaxScaleRatio = 25.0;
-constexpr int kMinPoints = 4;
-constexpr int kMaxLevels = 5;
-
-Status CheckIndex(const char* what, int point, std::size_t size) {
-  if (point >= 0 && point < static_cast<int>(size)) return Status::Ok();
-  return Status::Error(std::string(what) + " names source point " + std::to_string(point) +
-                       ", the source has " + std::to_string(size));
-}
-
-Status CheckInput(const FitInput& input) {
-  if (input.source.size() < kMinPoints) {
-    return Status::Error("the source has " + std::to_string(input.source.size()) +
-                         " points, a fit needs at least " + std::to_string(kMinPoints));
-  }
-  if (input.target.empty() && input.landmarks.empty()) {
-    return Status::Error("a fit needs a target or landmarks");
-  }
-  if (!input.target.empty() && input.target.size() < kMinPoints) {
-    return Status::Error("the target has " + std::to_string(input.target.size()) +
-                         " points, a fit needs at least " + std::to_string(kMinPoints));
-  }
-  for (const PointConstraint& landmark : input.landmarks) {
-    Status status = CheckIndex("a landmark", landmark.point, input.source.size());
-    if (!status.ok()) return status;
-  }
-  for (const int point : input.fixed_points) {
-    Status status = CheckIndex("the list of fixed points", point, input.source.size());
-    if (!status.ok()) return status;
-  }
-  return Status::Ok();
-}
-
-Status CheckScale(const FitInput& input, const FitOptions& options) {
-  const double source = Diagonal(input.source.points);
-  if (!(source > 0.0)) return Status::Error("the source has no extent: all its points coincide");
-  if (input.target.empty()) return Status::Ok();
-  const double target = Diagonal(input.target.points);
-  if (!(target > 0.0)) return Status::Error("the target has no extent: all its points coincide");
-  const double ratio = std::max(source / target, target / source);
-  if (ratio <= kMaxScaleRatio || options.rigid.with_scale) return Status::Ok();
-  std::ostringstream message;
-  message << "source and target share no scale: their diagonals are " << source << " and " << target
-          << " (at most a factor of " << kMaxScaleRatio << " is expected; are the units the same?)";
-  return Status::Error(message.str());
-}
 
 // The pose that landmarks ask for; the given one where they don't determine it.
 Similarity PoseFromLandmarks(const FitInput& input, bool with_scale) {
@@ -116,22 +67,6 @@ Warp WarpInSourceFrame(const BuiltGraph& graph,
   return warp;
 }
 
-// The state of other nodes, at some of the source's points, under the warp of `graph`.
-DeformationState CarryOver(const BuiltGraph& graph,
-                           const DeformationState& state,
-                           const std::vector<int>& node_points,
-                           const std::vector<Eigen::Vector3d>& points) {
-  DeformationState carried(static_cast<int>(node_points.size()));
-  for (int j = 0; j < carried.num_nodes(); ++j) {
-    const int point = node_points[j];
-    const Binding binding = graph.skinning[point];
-    MutableNodeAffine(carried.node(j)) = WarpGradient(state, binding);
-    MutableNodeTranslation(carried.node(j)) =
-        WarpPoint(graph.graph, state, binding, points[point]) - points[point];
-  }
-  return carried;
-}
-
 std::vector<Correspondence> InUnitFrame(const std::vector<PointConstraint>& constraints,
                                         const Similarity& unit_from_target) {
   std::vector<Correspondence> correspondences;
@@ -154,11 +89,6 @@ class Fitter {
 
  private:
   void PlaceRigidly();
-  // The graph of one level; `coarsening` multiplies the node spacing of the last one.
-  StatusOr<BuiltGraph> BuildUnitGraph(const Surface& source,
-                                      const BuiltGraph* finest,
-                                      double coarsening) const;
-  Status RunLevels(const Surface& source, const Surface* target);
   FitOptions UnitOptions(const Surface& source, const Surface* target) const;
   void Finish(const BuiltGraph& graph, const DeformationState& state);
   void WarnAboutReflections(const DeformationState& state);
@@ -189,21 +119,10 @@ void Fitter::PlaceRigidly() {
   result_.times.rigid = timer.Seconds();
 }
 
-StatusOr<BuiltGraph> Fitter::BuildUnitGraph(const Surface& source,
-                                            const BuiltGraph* finest,
-                                            double coarsening) const {
-  GraphOptions graph_options = options_.graph;
-  graph_options.node_spacing *= unit_from_target_.scale * result_.rigid.scale;
-  graph_options.num_threads = options_.num_threads;
-  if (finest != nullptr) {
-    graph_options.node_spacing = finest->node_spacing * coarsening;
-    graph_options.target_nodes = 0;
-  }
-  return BuildGraph(source.cloud(), source.topology(), graph_options);
-}
-
 FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) const {
   FitOptions options = options_;
+  options.graph.node_spacing *= unit_from_target_.scale * result_.rigid.scale;
+  options.graph.num_threads = options_.num_threads;
   options.matching.max_distance *= unit_from_target_.scale;
   options.matching.num_threads = options_.num_threads;
   if (target != nullptr) {
@@ -251,10 +170,7 @@ void Fitter::WarnAboutReflections(const DeformationState& state) {
 }
 
 StatusOr<FitResult> Fitter::Run() {
-  std::string error;
-  if (!options_.IsValid(&error)) return Status::Error(error);
-  if (Status status = CheckInput(input_); !status.ok()) return status;
-  if (Status status = CheckScale(input_, options_); !status.ok()) return status;
+  if (Status status = ValidateFit(input_, options_); !status.ok()) return status;
   PlaceRigidly();
 
   Timer timer;
@@ -267,99 +183,23 @@ StatusOr<FitResult> Fitter::Run() {
                                        options_.num_threads);
   }
   result_.times.prepare = timer.Seconds();
-  if (Status status = RunLevels(source, target.get()); !status.ok()) return status;
+
+  std::vector<PointConstraint> fixed;
+  for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
+  const FitOptions unit_options = UnitOptions(source, target.get());
+  CoarseToFine levels({&source,
+                       target.get(),
+                       &unit_options,
+                       &registry_,
+                       InUnitFrame(input_.landmarks, unit_from_target_),
+                       InUnitFrame(fixed, unit_from_target_),
+                       &clock_});
+  if (Status status = levels.Run(&result_); !status.ok()) return status;
+  Finish(levels.graph(), levels.state());
   return std::move(result_);
 }
 
-// Fits with few nodes first, carries the warp over to more, and goes on.
-Status Fitter::RunLevels(const Surface& source, const Surface* target) {
-  Timer timer;
-  StatusOr<BuiltGraph> finest = BuildUnitGraph(source, nullptr, 1.0);
-  if (!finest.ok()) return finest.status();
-  result_.warnings.insert(result_.warnings.end(), finest->warnings.begin(), finest->warnings.end());
-  result_.times.graph = timer.Seconds();
-  std::vector<PointConstraint> fixed;
-  for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
-  const FitOptions unit_options = UnitOptions(source, target);
-  const std::vector<LevelPlan> plans = PlanLevels(options_);
-
-  BuiltGraph graph;
-  DeformationState state;
-  for (std::size_t level = 0; level < plans.size(); ++level) {
-    timer.Restart();
-    const bool last = level + 1 == plans.size();
-    StatusOr<BuiltGraph> next =
-        last ? std::move(finest)
-             : BuildUnitGraph(source, &*finest, std::pow(2.0, plans.size() - 1 - level));
-    // A body of few nodes has no coarser graph: the finer levels do all of it.
-    if (!next.ok()) continue;
-    state = graph.graph.num_nodes() == 0
-                ? DeformationState(next->graph.num_nodes())
-                : CarryOver(graph, state, next->node_points, source.cloud().points);
-    graph = *std::move(next);
-    result_.times.graph += timer.Seconds();
-    FitProblem problem(graph, source.cloud().points);
-    Status status = problem.AddEnergies(unit_options,
-                                        registry_,
-                                        InUnitFrame(input_.landmarks, unit_from_target_),
-                                        InUnitFrame(fixed, unit_from_target_));
-    if (!status.ok()) return status;
-    RunNonrigidLoop(
-        source, target, graph, unit_options, plans[level], clock_, &problem, &state, &result_);
-    if (result_.status != SolveStatus::kConverged &&
-        result_.status != SolveStatus::kMaxIterations) {
-      break;
-    }
-  }
-  Finish(graph, state);
-  return Status::Ok();
-}
-
 }  // namespace
-
-bool FitOptions::IsValid(std::string* error) const {
-  if (!strategy.IsValid(error) || !graph.IsValid(error) || !matching.IsValid(error) ||
-      !rigid.IsValid(error)) {
-    return false;
-  }
-  std::ostringstream message;
-  const auto bad = [&](const char* name, double value, const char* expected) {
-    message << name << " is " << value << ", expected " << expected;
-  };
-  const double all_weights[] = {
-      weights.rotation, weights.regularization, weights.data, weights.landmark, weights.fixed};
-  for (const double weight : all_weights) {
-    if (!(std::isfinite(weight) && weight >= 0.0)) {
-      bad("a weight", weight, "finite and >= 0");
-      break;
-    }
-  }
-  if (!message.str().empty()) {
-  } else if (!(weights.point_to_point_share >= 0.0 && weights.point_to_point_share <= 1.0)) {
-    bad("point_to_point_share", weights.point_to_point_share, "in [0, 1]");
-  } else if (!(schedule.initial_stiffness >= 1.0)) {
-    bad("initial_stiffness", schedule.initial_stiffness, ">= 1");
-  } else if (schedule.levels < 1 || schedule.levels > kMaxLevels) {
-    bad("levels", schedule.levels, "in [1, 5]");
-  } else if (std::min({schedule.coarse_steps,
-                       schedule.fine_steps,
-                       schedule.max_rounds,
-                       schedule.solver_iterations}) < 1) {
-    message << "coarse_steps, fine_steps, max_rounds and solver_iterations are expected >= 1";
-  } else if (!(schedule.tolerance > 0.0)) {
-    bad("tolerance", schedule.tolerance, "> 0");
-  } else if (!(std::min(loss_width, coarse_loss_width) > 0.0)) {
-    bad("loss_width or coarse_loss_width", std::min(loss_width, coarse_loss_width), "> 0");
-  } else if (max_samples < 10) {
-    bad("max_samples", max_samples, ">= 10");
-  } else if (num_threads < 1) {
-    bad("num_threads", num_threads, ">= 1");
-  } else if (!(time_limit_s > 0.0)) {
-    bad("time_limit_s", time_limit_s, "> 0 seconds");
-  }
-  *error = message.str();
-  return error->empty();
-}
 
 StatusOr<FitResult> Fit(const FitInput& input,
                         const FitOptions& options,

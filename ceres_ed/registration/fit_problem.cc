@@ -29,23 +29,25 @@ void FitProblem::Collect(const Term& term, const std::vector<Correspondence>& la
 }
 
 void FitProblem::ApplyWeight(const Term& term) {
-  double weight = term.weight * (term.stiff ? stiffness_ : 1.0);
-  if (term.normalization == Normalization::kPerResidual) {
+  double weight = term.weight * (term.rule.stiff ? stiffness_ : 1.0);
+  if (term.rule.per_residual) {
     weight /= std::max(1, builder_.NumResidualBlocks(term.index));
   }
   builder_.SetWeight(term.index, weight);
 }
 
 Status FitProblem::AddTerm(const EnergyRegistry& registry,
+                           const std::string& label,
                            const EnergySpec& spec,
-                           double unit,
                            const std::vector<Correspondence>& landmarks,
-                           Term term) {
+                           const TermRule& rule) {
   StatusOr<std::unique_ptr<EnergyTerm>> energy = registry.Create(spec.name, spec.parameters);
   if (!energy.ok()) return energy.status();
+  Term term;
   term.energy = *std::move(energy);
-  term.weight = spec.weight * unit;
-  term.index = builder_.AddTerm(spec.name, term.energy->kind(), 0.0, spec.loss);
+  term.rule = rule;
+  term.weight = spec.weight * rule.unit;
+  term.index = builder_.AddTerm(label, term.energy->kind(), 0.0, spec.loss);
   Collect(term, landmarks);
   ApplyWeight(term);
   terms_.push_back(std::move(term));
@@ -54,80 +56,61 @@ Status FitProblem::AddTerm(const EnergyRegistry& registry,
 
 Status FitProblem::AddEnergies(const FitOptions& options,
                                const EnergyRegistry& registry,
-                               std::vector<Correspondence> landmarks,
-                               std::vector<Correspondence> fixed) {
-  const FitWeights& weights = options.weights;
+                               const std::vector<Correspondence>& landmarks,
+                               const std::vector<Correspondence>& fixed) {
   loss_ = options.loss;
-  landmarks_ = std::move(landmarks);
+  landmarks_ = landmarks;
   const double spacing = graph_.node_spacing;
-  const double per_squared_spacing = spacing > 0.0 ? 1.0 / (spacing * spacing) : 1.0;
-  struct Planned {
-    EnergySpec spec;
-    double unit;
-    const std::vector<Correspondence>* landmarks;
-    Normalization normalization;
-    bool stiff;
-    bool matched;
-  };
-  std::vector<Planned> planned;
-  planned.push_back({{"rotation", weights.rotation, {}, {}},
-                     1.0,
-                     &landmarks_,
-                     Normalization::kPerResidual,
-                     true,
-                     false});
-  planned.push_back({{"regularization", weights.regularization, {}, {}},
-                     per_squared_spacing,
-                     &landmarks_,
-                     Normalization::kPerResidual,
-                     true,
-                     false});
-  const double plane_weight = weights.data * (1.0 - weights.point_to_point_share);
+  TermRule rotation{1.0};
+  rotation.per_residual = true;
+  rotation.stiff = true;
+  TermRule regularization = rotation;
+  regularization.unit = spacing > 0.0 ? 1.0 / (spacing * spacing) : 1.0;
+  // The weights of matched pairs are relative areas and sum to one.
+  TermRule data{kPerSquaredLength};
+  data.matched = true;
+  data.adaptive_loss = true;
+  TermRule given{kPerSquaredLength};
+  given.per_residual = true;
+
+  const FitWeights& weights = options.weights;
   const double point_weight = weights.data * weights.point_to_point_share;
-  planned.push_back({{"point_to_plane", plane_weight, {}, {}},
-                     kPerSquaredLength,
-                     &landmarks_,
-                     Normalization::kNone,
-                     false,
-                     true});
-  planned.push_back({{"point_to_point", point_weight, {}, {}},
-                     kPerSquaredLength,
-                     &landmarks_,
-                     Normalization::kNone,
-                     false,
-                     true});
-  if (!landmarks_.empty()) {
-    planned.push_back({{"landmark", weights.landmark, {}, {}},
-                       kPerSquaredLength,
-                       &landmarks_,
-                       Normalization::kPerResidual,
-                       false,
-                       false});
+  struct Planned {
+    std::string label;
+    EnergySpec spec;
+    const std::vector<Correspondence>* landmarks;
+    TermRule rule;
+  };
+  std::vector<Planned> planned = {
+      {"rotation", {"rotation", weights.rotation, {}, {}}, &landmarks_, rotation},
+      {"regularization",
+       {"regularization", weights.regularization, {}, {}},
+       &landmarks_,
+       regularization},
+      {"point_to_plane",
+       {"point_to_plane", weights.data - point_weight, {}, {}},
+       &landmarks_,
+       data},
+      {"point_to_point", {"point_to_point", point_weight, {}, {}}, &landmarks_, data}};
+  if (!landmarks.empty()) {
+    planned.push_back({"landmark", {"landmark", weights.landmark, {}, {}}, &landmarks_, given});
   }
   if (!fixed.empty()) {
-    planned.push_back({{"landmark", weights.fixed, {}, {}},
-                       kPerSquaredLength,
-                       &fixed,
-                       Normalization::kPerResidual,
-                       false,
-                       false});
+    planned.push_back({"fixed", {"landmark", weights.fixed, {}, {}}, &fixed, given});
   }
   for (const EnergySpec& spec : options.extra_energies) {
     const EnergyInfo* info = registry.Find(spec.name);
-    const bool observation = info != nullptr && info->kind == EnergyKind::kObservation;
-    planned.push_back({spec,
-                       observation ? kPerSquaredLength : 1.0,
-                       &landmarks_,
-                       observation ? Normalization::kNone : Normalization::kPerResidual,
-                       false,
-                       observation});
+    TermRule rule{1.0};
+    if (info != nullptr && info->kind == EnergyKind::kObservation) {
+      rule.unit = kPerSquaredLength;
+      rule.matched = true;
+    } else {
+      rule.per_residual = true;
+    }
+    planned.push_back({spec.name, spec, &landmarks_, rule});
   }
   for (const Planned& plan : planned) {
-    Term term;
-    term.normalization = plan.normalization;
-    term.stiff = plan.stiff;
-    term.matched = plan.matched;
-    Status status = AddTerm(registry, plan.spec, plan.unit, *plan.landmarks, std::move(term));
+    Status status = AddTerm(registry, plan.label, plan.spec, *plan.landmarks, plan.rule);
     if (!status.ok()) return status;
   }
   return Status::Ok();
@@ -136,7 +119,7 @@ Status FitProblem::AddEnergies(const FitOptions& options,
 void FitProblem::SetStiffness(double stiffness) {
   stiffness_ = stiffness;
   for (const Term& term : terms_) {
-    if (term.stiff) ApplyWeight(term);
+    if (term.rule.stiff) ApplyWeight(term);
   }
 }
 
@@ -144,8 +127,8 @@ void FitProblem::SetCorrespondences(std::vector<Correspondence> correspondences,
                                     double loss_width) {
   correspondences_ = std::move(correspondences);
   for (const Term& term : terms_) {
-    if (!term.matched) continue;
-    builder_.SetLoss(term.index, {loss_, loss_width});
+    if (!term.rule.matched) continue;
+    if (term.rule.adaptive_loss) builder_.SetLoss(term.index, {loss_, loss_width});
     Collect(term, landmarks_);
   }
 }

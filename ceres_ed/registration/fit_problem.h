@@ -22,8 +22,8 @@ class FitProblem {
   // an unknown energy or parameter.
   Status AddEnergies(const FitOptions& options,
                      const EnergyRegistry& registry,
-                     std::vector<Correspondence> landmarks,
-                     std::vector<Correspondence> fixed);
+                     const std::vector<Correspondence>& landmarks,
+                     const std::vector<Correspondence>& fixed);
 
   // Multiplies the weights of E_rot and E_reg.
   void SetStiffness(double stiffness);
@@ -34,26 +34,31 @@ class FitProblem {
   const ProblemBuilder& builder() const { return builder_; }
 
  private:
-  // What a weight is divided by, once the residuals are there.
-  enum class Normalization {
-    // Correspondence weights sum to one already.
-    kNone,
-    kPerResidual,
+  // How a term of the fit is weighed.
+  struct TermRule {
+    // Multiplies the user's weight.
+    double unit = 1.0;
+    // Divide by the number of residual blocks.
+    bool per_residual = false;
+    // Multiply by the stiffness.
+    bool stiff = false;
+    // Collect anew when the correspondences change.
+    bool matched = false;
+    // Give the data loss, with the width that SetCorrespondences asks for.
+    bool adaptive_loss = false;
   };
   struct Term {
     std::unique_ptr<EnergyTerm> energy;
+    TermRule rule;
     int index = -1;
     double weight = 0.0;
-    Normalization normalization = Normalization::kNone;
-    bool stiff = false;
-    bool matched = false;
   };
 
   Status AddTerm(const EnergyRegistry& registry,
+                 const std::string& label,
                  const EnergySpec& spec,
-                 double unit,
                  const std::vector<Correspondence>& landmarks,
-                 Term term);
+                 const TermRule& rule);
   EnergyContext Context(const std::vector<Correspondence>& landmarks) const;
   void Collect(const Term& term, const std::vector<Correspondence>& landmarks);
   void ApplyWeight(const Term& term);

@@ -17,7 +17,10 @@ constexpr double kMadToSigma = 1.4826;
 struct Candidate {
   Correspondence match;
   double distance = std::numeric_limits<double>::infinity();
-  bool plausible = false;
+  bool on_border = false;
+  bool normals_agree = false;
+
+  bool IsPlausible() const { return normals_agree && !on_border; }
 };
 
 double NormalAgreement(const Eigen::Vector3d& a, const Eigen::Vector3d& b, bool oriented) {
@@ -46,8 +49,8 @@ void MatchForward(const MovedSource& source,
       candidate.match = {
           point, hit.position, normal, source.rest->relative_areas()[point] / samples.size()};
       candidate.distance = std::sqrt(hit.squared_distance);
-      candidate.plausible =
-          !hit.on_border &&
+      candidate.on_border = hit.on_border;
+      candidate.normals_agree =
           NormalAgreement((*source.normals)[point], normal, oriented) >= min_cosine;
     }
   });
@@ -72,8 +75,8 @@ void MatchBackward(const MovedSource& source,
       candidate.match = {
           nearest.index, position, normal, target.relative_areas()[samples[i]] / samples.size()};
       candidate.distance = std::sqrt(nearest.squared_distance);
-      candidate.plausible =
-          source.rest->topology().is_border[nearest.index] == 0 &&
+      candidate.on_border = source.rest->topology().is_border[nearest.index] != 0;
+      candidate.normals_agree =
           NormalAgreement((*source.normals)[nearest.index], normal, oriented) >= min_cosine;
     }
   });
@@ -83,12 +86,24 @@ double MedianDistance(const std::vector<Candidate>& candidates) {
   std::vector<double> distances;
   distances.reserve(candidates.size());
   for (const Candidate& candidate : candidates) {
-    if (candidate.plausible) distances.push_back(candidate.distance);
+    if (candidate.IsPlausible()) distances.push_back(candidate.distance);
   }
   if (distances.empty()) return 0.0;
   const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
   std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
+}
+
+// The candidates of the source's samples, then those of the target's.
+std::vector<Candidate> FindCandidates(const MovedSource& source,
+                                      const std::vector<int>& source_samples,
+                                      const Surface& target,
+                                      const std::vector<int>& target_samples,
+                                      const MatchingOptions& options) {
+  std::vector<Candidate> candidates(source_samples.size() + target_samples.size());
+  MatchForward(source, source_samples, target, options, &candidates);
+  MatchBackward(source, target, target_samples, options, candidates.data() + source_samples.size());
+  return candidates;
 }
 
 }  // namespace
@@ -128,7 +143,7 @@ Matches MatchBothWays(const MovedSource& source,
   for (const Candidate& candidate : candidates) {
     if (candidate.match.point < 0) continue;
     ++matches.candidates;
-    if (!candidate.plausible || candidate.distance > limit) continue;
+    if (!candidate.IsPlausible() || candidate.distance > limit) continue;
     matches.correspondences.push_back(candidate.match);
     const Eigen::Vector3d gap = (*source.points)[candidate.match.point] - candidate.match.target;
     sum_plane += std::pow(gap.dot(candidate.match.normal), 2);
@@ -140,6 +155,24 @@ Matches MatchBothWays(const MovedSource& source,
     matches.rms_point = std::sqrt(sum_point / matches.inliers);
   }
   return matches;
+}
+
+double UnmatchedShare(const MovedSource& source,
+                      const std::vector<int>& source_samples,
+                      const Surface& target,
+                      const std::vector<int>& target_samples,
+                      double width,
+                      const MatchingOptions& options) {
+  const std::vector<Candidate> candidates =
+      FindCandidates(source, source_samples, target, target_samples, options);
+  double sum = 0.0;
+  for (const Candidate& candidate : candidates) {
+    const double squared = candidate.distance * candidate.distance;
+    sum += candidate.match.point >= 0 && candidate.normals_agree
+               ? squared / (squared + width * width)
+               : 1.0;
+  }
+  return candidates.empty() ? 1.0 : sum / static_cast<double>(candidates.size());
 }
 
 }  // namespace ceres_ed

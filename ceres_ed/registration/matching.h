@@ -60,6 +60,15 @@ Matches MatchBothWays(const MovedSource& source,
                       const std::vector<int>& target_samples,
                       const MatchingOptions& options);
 
+// How much of the two surfaces is left unmatched, in [0, 1]: the mean over all samples of
+// d^2 / (d^2 + width^2), with 1 where there is no closest point or the normals disagree.
+double UnmatchedShare(const MovedSource& source,
+                      const std::vector<int>& source_samples,
+                      const Surface& target,
+                      const std::vector<int>& target_samples,
+                      double width,
+                      const MatchingOptions& options);
+
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_REGISTRATION_MATCHING_H_

@@ -7,6 +7,8 @@
 namespace ceres_ed {
 namespace {
 
+constexpr int kPatientIterations = 10;
+
 class NonrigidLoop {
  public:
   NonrigidLoop(const Surface& source,
@@ -37,6 +39,7 @@ class NonrigidLoop {
   RoundOutcome RunRound(int max_iterations);
   void Match();
   SolveSummary Solve(int max_iterations);
+  void MeasureInitialEnergy();
   double MeanMotion(const std::vector<Eigen::Vector3d>& before) const;
   bool Stopped();
   void Report(double fraction) const;
@@ -56,6 +59,8 @@ class NonrigidLoop {
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3d> normals_;
   double energy_ = 0.0;
+  double stiffness_ = 1.0;
+  bool initial_energy_known_ = false;
   MatchingOptions mo_;
   double lw_ = 10;
 };
@@ -119,12 +124,24 @@ SolveSummary NonrigidLoop::Solve(int max_iterations) {
   return summary;
 }
 
+// The energy with nothing deformed, weighted as it is at the end: what final_energy compares with.
+void NonrigidLoop::MeasureInitialEnergy() {
+  initial_energy_known_ = true;
+  problem_->SetStiffness(1.0);
+  result_->initial_energy =
+      problem_->builder().Evaluate(DeformationState(graph_.graph.num_nodes()));
+  problem_->SetStiffness(stiffness_);
+}
+
 NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
   if (target_ != nullptr) Match();
-  if (result_->outer_iterations == 0) {
-    result_->initial_energy = problem_->builder().Evaluate(*state_);
+  if (!initial_energy_known_) MeasureInitialEnergy();
+  SolveSummary summary = Solve(max_iterations);
+  // A step that is refused only shrinks the trust region: it doesn't mean that nothing moves.
+  if (summary.status == SolveStatus::kMaxIterations &&
+      !(summary.final_energy < summary.initial_energy)) {
+    summary = Solve(kPatientIterations);
   }
-  const SolveSummary summary = Solve(max_iterations);
   ++result_->outer_iterations;
   if (!summary.IsUsable()) {
     result_->status = SolveStatus::kFailed;
@@ -156,8 +173,9 @@ void NonrigidLoop::Run() {
   RoundOutcome outcome = RoundOutcome::kMoving;
   for (int step = 0; step < plan_.steps && outcome != RoundOutcome::kStopped; ++step) {
     const double part = plan_.steps > 1 ? double(step) / (plan_.steps - 1) : 1.0;
-    problem_->SetStiffness(plan_.first_stiffness *
-                           std::pow(plan_.last_stiffness / plan_.first_stiffness, part));
+    stiffness_ =
+        plan_.first_stiffness * std::pow(plan_.last_stiffness / plan_.first_stiffness, part);
+    problem_->SetStiffness(stiffness_);
     {
       auto e = [](const char* n, double d) {
         const char* v = getenv(n);
@@ -190,35 +208,32 @@ void NonrigidLoop::Run() {
 
 }  // namespace
 
-std::vector<LevelPlan> PlanLevels(const FitOptions& options) {
+std::vector<LevelPlan> PlanLevels(const FitOptions& options, int levels) {
   const FitSchedule& schedule = options.schedule;
-  constexpr int kMinCoarseSamples = 1000;
-  const int coarse_levels = schedule.levels - 1;
-  // Where the stiffness stands after the coarse levels: what is left to the last one is one step
-  // less than it has, for it starts with the stiffness that they ended with.
+  const int coarse_levels = levels - 1;
+  // A level starts with the stiffness that the one before ended with.
+  const int coarse_steps =
+      coarse_levels > 0 ? std::max(1, schedule.coarse_steps / coarse_levels) : 0;
   const int ratios =
-      std::max(1, (coarse_levels > 0 ? schedule.coarse_steps - 1 : 0) + schedule.fine_steps - 1);
+      std::max(1, coarse_levels * std::max(0, coarse_steps - 1) + schedule.fine_steps - 1);
   const double ratio = std::pow(schedule.initial_stiffness, -1.0 / ratios);
-  std::vector<LevelPlan> plans;
+  std::vector<LevelPlan> plans(levels);
   double stiffness = schedule.initial_stiffness;
-  int samples = options.max_samples;
-  for (int level = schedule.levels - 1; level >= 0; --level) {
-    LevelPlan plan;
-    plan.samples = samples;
-    samples = std::min(options.max_samples, std::max(kMinCoarseSamples, samples / 4));
-    plans.insert(plans.begin(), plan);
-  }
-  for (int level = 0; level < schedule.levels; ++level) {
+  for (int level = 0; level < levels; ++level) {
     LevelPlan& plan = plans[level];
     const bool last = level == coarse_levels;
-    plan.steps = last ? schedule.fine_steps
-                      : std::max(1, schedule.coarse_steps / std::max(1, coarse_levels));
+    plan.steps = last ? schedule.fine_steps : coarse_steps;
     plan.loss_width = last ? options.loss_width : options.coarse_loss_width;
     plan.first_stiffness = stiffness;
     stiffness = last ? 1.0 : stiffness * std::pow(ratio, plan.steps - 1);
     plan.last_stiffness = stiffness;
-    plan.progress_begin = double(level) / schedule.levels;
-    plan.progress_end = double(level + 1) / schedule.levels;
+    plan.progress_begin = static_cast<double>(level) / levels;
+    plan.progress_end = static_cast<double>(level + 1) / levels;
+  }
+  int samples = options.max_samples;
+  for (int level = coarse_levels; level >= 0; --level) {
+    plans[level].samples = samples;
+    samples = std::min(options.max_samples, std::max(kMinCoarseSamples, samples / 4));
   }
   return plans;
 }

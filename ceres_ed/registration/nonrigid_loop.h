@@ -25,8 +25,11 @@ struct LevelPlan {
   double progress_end = 1.0;
 };
 
-// The levels of a fit, coarse to fine.
-std::vector<LevelPlan> PlanLevels(const FitOptions& options);
+// Fewer points of a surface than these are not matched unless it has no more.
+inline constexpr int kMinCoarseSamples = 1000;
+
+// The plans of `levels` >= 1 levels, coarse to fine.
+std::vector<LevelPlan> PlanLevels(const FitOptions& options, int levels);
 
 // Moves `state` so that the warped `source` follows `target` (null: landmarks alone). All lengths
 // are in the unit frame. Fills in status, message, point_relevant, matches, energies, iterations

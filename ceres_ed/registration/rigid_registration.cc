@@ -10,7 +10,6 @@
 #include <sstream>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
 namespace ceres_ed {
@@ -24,6 +23,12 @@ constexpr int kCoarseSamples = 300;
 constexpr int kCoarseIterations = 20;
 constexpr int kFineSamples = 1500;
 constexpr int kFineIterations = 40;
+constexpr int kMinPairs = 6;
+// Weight of point-to-point beside point-to-plane.
+constexpr double kPointShare = 0.1;
+// A direction in which the mean squared normal displacement of a unit motion is below this isn't
+// determined by point-to-plane distances.
+constexpr double kLeastCurvature = 0.05;
 
 // A pair in the target frame: where the source point is, and the plane that it should be on.
 struct PlanePair {
@@ -34,7 +39,12 @@ struct PlanePair {
   bool agrees = false;
   bool on_border = false;
   bool found = false;
+
+  bool IsUsable() const { return found && agrees && !on_border; }
 };
+
+using Vector7 = Eigen::Matrix<double, 7, 1>;
+using Matrix7 = Eigen::Matrix<double, 7, 7>;
 
 class RigidAligner {
  public:
@@ -53,6 +63,10 @@ class RigidAligner {
 
  private:
   bool Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const;
+  Vector7 SolveObserved(const Matrix7& H,
+                        const Vector7& b,
+                        double total_weight,
+                        double radius) const;
 
   const Surface& source_;
   const Surface& target_;
@@ -113,39 +127,41 @@ double RigidAligner::Score(const Similarity& pose) const {
   return pairs.empty() ? 1.0 : sum / static_cast<double>(pairs.size());
 }
 
-// One Gauss-Newton step of the reweighted point-to-plane sum; false when it can't be taken.
+// One Gauss-Newton step of the reweighted sum of point-to-plane and, with a small share,
+// point-to-point distances; false when it can't be taken.
 bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   int count = 0;
   for (const PlanePair& pair : pairs) {
-    if (!pair.found || !pair.agrees || pair.on_border) continue;
+    if (!pair.IsUsable()) continue;
     center += pair.moved;
     ++count;
   }
-  if (count < 6) return false;
+  if (count < kMinPairs) return false;
   center /= count;
-  using Vector7 = Eigen::Matrix<double, 7, 1>;
-  Eigen::Matrix<double, 7, 7> H = Eigen::Matrix<double, 7, 7>::Zero();
+  Matrix7 H = Matrix7::Zero();
   Vector7 b = Vector7::Zero();
+  double total_weight = 0.0;
   double spread = 0.0;
   for (const PlanePair& pair : pairs) {
-    if (!pair.found || !pair.agrees || pair.on_border) continue;
+    if (!pair.IsUsable()) continue;
     const Eigen::Vector3d arm = pair.moved - center;
-    const double r = pair.normal.dot(pair.moved - pair.target);
+    const Eigen::Vector3d gap = pair.moved - pair.target;
     const double ratio = sigma * sigma / (sigma * sigma + pair.squared_distance);
-    Vector7 J;
-    J << arm.cross(pair.normal), pair.normal, pair.normal.dot(arm);
-    H += ratio * ratio * J * J.transpose();
-    b -= ratio * ratio * r * J;
-    spread += ratio * ratio * arm.squaredNorm();
+    const double weight = ratio * ratio;
+    const auto add = [&](double share, const Eigen::Vector3d& direction) {
+      Vector7 J;
+      J << arm.cross(direction), direction, direction.dot(arm);
+      H += weight * share * J * J.transpose();
+      b -= weight * share * direction.dot(gap) * J;
+    };
+    add(1.0, pair.normal);
+    for (int axis = 0; axis < 3; ++axis) add(kPointShare, Eigen::Vector3d::Unit(axis));
+    total_weight += weight;
+    spread += weight * arm.squaredNorm();
   }
-  // A symmetric body leaves directions free: a little damping keeps them where they are.
-  constexpr double kDamping = 1e-6;
-  const double size = std::max(spread, 1e-300);
-  H.diagonal().head<3>().array() += kDamping * size;
-  H.diagonal().segment<3>(3).array() += kDamping * count;
-  H(6, 6) += options_.with_scale ? kDamping * size : 1e12 * size;
-  const Vector7 delta = H.ldlt().solve(b);
+  if (!(spread > 0.0)) return false;
+  const Vector7 delta = SolveObserved(H, b, total_weight, std::sqrt(spread / total_weight));
   if (!delta.allFinite()) return false;
   const double angle = delta.head<3>().norm();
   Similarity step;
@@ -158,6 +174,31 @@ bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Simil
   return true;
 }
 
+// The step in the directions that the pairs really determine. A sheet slides in its plane and a
+// round body turns about its axis at no cost: where the surfaces differ by more than a rigid motion
+// they would do so, so these directions are left as they are (Zhang et al. 2016, "On degeneracy").
+// Turns are measured at `radius`, so that all directions have the unit of a length.
+Vector7 RigidAligner::SolveObserved(const Matrix7& H,
+                                    const Vector7& b,
+                                    double total_weight,
+                                    double radius) const {
+  Vector7 unit;
+  unit << Eigen::Vector3d::Constant(radius), Eigen::Vector3d::Ones(), radius;
+  const Vector7 per_unit = unit.cwiseInverse();
+  const int size = options_.with_scale ? 7 : 6;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      (per_unit.asDiagonal() * H * per_unit.asDiagonal()).topLeftCorner(size, size));
+  Eigen::VectorXd along = eigen.eigenvectors().transpose() * per_unit.cwiseProduct(b).head(size);
+  for (int i = 0; i < size; ++i) {
+    const double curvature = eigen.eigenvalues()[i];
+    const bool observed = curvature > (kPointShare + kLeastCurvature) * total_weight;
+    along[i] = observed ? along[i] / curvature : 0.0;
+  }
+  Vector7 delta = Vector7::Zero();
+  delta.head(size) = eigen.eigenvectors() * along;
+  return per_unit.cwiseProduct(delta);
+}
+
 Similarity RigidAligner::Refine(Similarity pose, int samples, int iterations) const {
   constexpr double kConverged = 1e-7;
   const double floor = 1e-3 * width_;
@@ -165,7 +206,7 @@ Similarity RigidAligner::Refine(Similarity pose, int samples, int iterations) co
     const std::vector<PlanePair> pairs = Pairs(pose, samples);
     std::vector<double> squared;
     for (const PlanePair& pair : pairs) {
-      if (pair.found && pair.agrees && !pair.on_border) squared.push_back(pair.squared_distance);
+      if (pair.IsUsable()) squared.push_back(pair.squared_distance);
     }
     if (squared.empty()) return pose;
     const auto middle = squared.begin() + static_cast<long>(squared.size() / 2);

@@ -1,0 +1,122 @@
+#include "ceres_ed/registration/coarse_to_fine.h"
+
+#include <ceres_ed/registration/fit_problem.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+// Distance, as a fraction of the source's diagonal, at which a point counts half as missed.
+constexpr double kMissedWidth = 0.02;
+
+// The state of other nodes, at some of the source's points, under the warp of `graph`.
+DeformationState CarryOver(const BuiltGraph& graph,
+                           const DeformationState& state,
+                           const std::vector<int>& node_points,
+                           const std::vector<Eigen::Vector3d>& points) {
+  DeformationState carried(static_cast<int>(node_points.size()));
+  for (int j = 0; j < carried.num_nodes(); ++j) {
+    const int point = node_points[j];
+    const Binding binding = graph.skinning[point];
+    MutableNodeAffine(carried.node(j)) = WarpGradient(state, binding);
+    MutableNodeTranslation(carried.node(j)) =
+        WarpPoint(graph.graph, state, binding, points[point]) - points[point];
+  }
+  return carried;
+}
+
+bool EndedEarly(const FitResult& result) {
+  return result.status != SolveStatus::kConverged && result.status != SolveStatus::kMaxIterations;
+}
+
+}  // namespace
+
+Status CoarseToFine::BuildGraphs(int levels, FitResult* result) {
+  const Timer timer;
+  const Surface& source = *fit_.source;
+  StatusOr<BuiltGraph> finest = BuildGraph(source.cloud(), source.topology(), fit_.options->graph);
+  if (!finest.ok()) return finest.status();
+  result->warnings.insert(result->warnings.end(), finest->warnings.begin(), finest->warnings.end());
+  for (int level = levels - 1; level > 0; --level) {
+    GraphOptions options = fit_.options->graph;
+    options.node_spacing = finest->node_spacing * std::pow(2.0, level);
+    options.target_nodes = 0;
+    StatusOr<BuiltGraph> coarse = BuildGraph(source.cloud(), source.topology(), options);
+    // A body of few nodes has no coarser graph: the finer levels do all of it.
+    if (coarse.ok()) graphs_.push_back(*std::move(coarse));
+  }
+  graphs_.push_back(*std::move(finest));
+  result->times.graph = timer.Seconds();
+  return Status::Ok();
+}
+
+Status CoarseToFine::RunLevel(
+    int level, const LevelPlan& plan, int from, DeformationState* state, FitResult* result) const {
+  const BuiltGraph& graph = graphs_[level];
+  const std::vector<Eigen::Vector3d>& points = fit_.source->cloud().points;
+  *state = from < 0 ? DeformationState(graph.graph.num_nodes())
+                    : CarryOver(graphs_[from], *state, graph.node_points, points);
+  FitProblem problem(graph, points);
+  Status status = problem.AddEnergies(*fit_.options, *fit_.registry, fit_.landmarks, fit_.fixed);
+  if (!status.ok()) return status;
+  RunNonrigidLoop(
+      *fit_.source, fit_.target, graph, *fit_.options, plan, *fit_.clock, &problem, state, result);
+  return Status::Ok();
+}
+
+double CoarseToFine::MissedShare(int level, const DeformationState& state) const {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+  const BuiltGraph& graph = graphs_[level];
+  const int threads = fit_.options->num_threads;
+  WarpPoints(graph.graph, state, graph.skinning, fit_.source->cloud().points, threads, &points);
+  WarpNormals(state, graph.skinning, fit_.source->cloud().normals, threads, &normals);
+  return UnmatchedShare({fit_.source, &points, &normals},
+                        SamplePoints(*fit_.source, kMinCoarseSamples),
+                        *fit_.target,
+                        SamplePoints(*fit_.target, kMinCoarseSamples),
+                        kMissedWidth,
+                        fit_.options->matching);
+}
+
+Status CoarseToFine::Run(FitResult* result) {
+  const FitOptions& options = *fit_.options;
+  if (Status status = BuildGraphs(options.schedule.levels, result); !status.ok()) return status;
+  const std::vector<LevelPlan> plans = PlanLevels(options, static_cast<int>(graphs_.size()));
+  const int last = static_cast<int>(graphs_.size()) - 1;
+  // Without a target there is nothing to match, and one way to go.
+  std::vector<double> loss_widths = {options.coarse_loss_width};
+  if (fit_.target != nullptr) loss_widths.push_back(options.loss_width);
+  double best_missed = std::numeric_limits<double>::infinity();
+  int start = -1;
+  for (std::size_t i = 0; i < loss_widths.size() && last > 0; ++i) {
+    DeformationState state;
+    int level = 0;
+    for (; level < last; ++level) {
+      LevelPlan plan = plans[level];
+      plan.loss_width = loss_widths[i];
+      Status status = RunLevel(level, plan, level - 1, &state, result);
+      if (!status.ok()) return status;
+      if (EndedEarly(*result)) break;
+    }
+    const int reached = std::min(level, last - 1);
+    const double missed = fit_.target != nullptr ? MissedShare(reached, state) : 0.0;
+    if (missed < best_missed) {
+      best_missed = missed;
+      start = reached;
+      state_ = std::move(state);
+    }
+    if (EndedEarly(*result)) {
+      graph_ = start;
+      return Status::Ok();
+    }
+  }
+  graph_ = last;
+  return RunLevel(last, plans[last], start, &state_, result);
+}
+
+}  // namespace ceres_ed

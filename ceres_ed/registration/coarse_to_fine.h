@@ -1,0 +1,59 @@
+// The levels of a fit: few nodes first, then many.
+#ifndef CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
+#define CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
+
+#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/registration/nonrigid_loop.h>
+#include <ceres_ed/util/timer.h>
+
+#include <utility>
+#include <vector>
+
+namespace ceres_ed {
+
+// What a fit is about, all in the unit frame. The pointers must outlive the fit.
+struct UnitFit {
+  const Surface* source = nullptr;
+  // Null: landmarks alone.
+  const Surface* target = nullptr;
+  const FitOptions* options = nullptr;
+  const EnergyRegistry* registry = nullptr;
+  std::vector<Correspondence> landmarks;
+  std::vector<Correspondence> fixed;
+  // Started with the fit.
+  const Timer* clock = nullptr;
+};
+
+// Runs the levels one after the other and carries the warp from graph to graph. On the coarse
+// graphs a narrow and a wide loss are both tried: a narrow one lets limbs that are far away wait
+// until what carries them is near, a wide one fetches what nothing else would bring. The one that
+// leaves less of the two surfaces unmatched goes on.
+class CoarseToFine {
+ public:
+  explicit CoarseToFine(UnitFit fit) : fit_(std::move(fit)) {}
+
+  // Fills in status, energies, matches, iterations, times and warnings of `result`. Error: a source
+  // that no graph can be put on, an unknown energy.
+  Status Run(FitResult* result);
+
+  // The graph and the state that the fit ended with.
+  const BuiltGraph& graph() const { return graphs_[graph_]; }
+  const DeformationState& state() const { return state_; }
+
+ private:
+  Status BuildGraphs(int levels, FitResult* result);
+  // Runs one level with `loss_width`, from `state` over graph `from` (-1: at rest).
+  Status RunLevel(
+      int level, const LevelPlan& plan, int from, DeformationState* state, FitResult* result) const;
+  double MissedShare(int level, const DeformationState& state) const;
+
+  UnitFit fit_;
+  // Coarse to fine.
+  std::vector<BuiltGraph> graphs_;
+  int graph_ = 0;
+  DeformationState state_;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_REGISTRATION_COARSE_TO_FINE_H_

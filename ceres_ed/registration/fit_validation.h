@@ -1,0 +1,16 @@
+// What a fit accepts.
+#ifndef CERES_ED_REGISTRATION_FIT_VALIDATION_H_
+#define CERES_ED_REGISTRATION_FIT_VALIDATION_H_
+
+#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/util/status.h>
+
+namespace ceres_ed {
+
+// Error: options out of range, too few points, no extent, indices that aren't there, surfaces that
+// share no scale.
+Status ValidateFit(const FitInput& input, const FitOptions& options);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_REGISTRATION_FIT_VALIDATION_H_
