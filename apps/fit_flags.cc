@@ -18,6 +18,9 @@ constexpr Choice<SolveMode> kModes[] = {{"batch", SolveMode::kBatch},
                                         {"two_level", SolveMode::kTwoLevel}};
 constexpr Choice<SeamEdges> kBoundaries[] = {{"keep", SeamEdges::kKeep}, {"cut", SeamEdges::kCut}};
 
+constexpr Choice<LinearSolver> kLinearSolvers[] = {{"ceres", LinearSolver::kCeres},
+                                                   {"block", LinearSolver::kBlock}};
+
 template <typename T, std::size_t kSize>
 std::string NameOf(const Choice<T> (&choices)[kSize], T value) {
   for (const Choice<T>& choice : choices) {
@@ -64,6 +67,9 @@ DEFINE_int32(rings,
 DEFINE_string(boundary,
               ceres_ed::NameOf(ceres_ed::kBoundaries, Defaults().strategy.seam_edges),
               "two_level: keep or cut edges across the seam of level I");
+DEFINE_string(linear_solver,
+              ceres_ed::NameOf(ceres_ed::kLinearSolvers, Defaults().strategy.linear_solver),
+              "block: own block normal equations; ceres: ceres::Solve, the reference");
 DEFINE_string(landmarks, "", "CSV of rows source_index,x,y,z: places in the target's frame");
 DEFINE_string(fixed, "", "text file of source indices that must not move");
 DEFINE_bool(rigid_first, Defaults().rigid_first, "find a rigid motion before anything bends");
@@ -147,6 +153,9 @@ Status ReadChoices(FitOptions* options) {
   Status status = Choose("mode", kModes, FLAGS_mode, &options->strategy.mode);
   if (!status.ok()) return status;
   status = Choose("boundary", kBoundaries, FLAGS_boundary, &options->strategy.seam_edges);
+  if (!status.ok()) return status;
+  status = Choose(
+      "linear_solver", kLinearSolvers, FLAGS_linear_solver, &options->strategy.linear_solver);
   if (!status.ok()) return status;
   const StatusOr<LossType> loss = ParseLossType(FLAGS_loss);
   if (!loss.ok()) return Status::Error("--loss: " + loss.status().message());

@@ -12,6 +12,7 @@ Errors are means in percent of the diagonal of the target's bounding box, as ed_
   truth     result to truth, over all source vertices
   surface   result to target and back, between the surfaces
   trimmed   the same of the nearest 80 %: what is missing in one of both does not spoil it
+  target    target to result alone: the one that counts where the target is partial
 Exits with 1 when a run fails or two runs of one variant differ, with 2 on a wrong call.
 
   scripts/bench_pairs.py
@@ -32,24 +33,19 @@ import tempfile
 import time
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
-PUBLISHED = ROOT / "data" / "published.csv"
-BEGIN, END = "<!-- bench_pairs.py: begin -->", "<!-- bench_pairs.py: end -->"
+from bench_tables import COLUMNS, print_table, ratio_row, write_readme
 
-# Field, heading, decimals. Compared variants show the ratio B/A of those in RATIOS.
-COLUMNS = [
-    ("pair", "pair", None), ("nothing", "nothing %", 2), ("rigid", "rigid %", 2),
-    ("truth", "truth %", 3), ("surface", "surface %", 3), ("trimmed", "trimmed %", 3),
-    ("edge_p99", "edge p99 %", 1), ("flipped", "flips", 0), ("time_s", "time s", 2),
-    ("wall_s", "wall s", 2), ("cpu_s", "cpu s", 2), ("memory_mb", "MB", 0),
-    ("nodes", "nodes", 0), ("inliers", "inliers", 0),
-]
-RATIOS = ("truth", "surface", "trimmed", "time_s", "wall_s", "cpu_s", "memory_mb")
+ROOT = Path(__file__).resolve().parent.parent
 MEDIANS = ("time_s", "wall_s", "cpu_s", "memory_mb")
 
 
 class RunFailed(Exception):
     pass
+
+
+def wrong_call(message):
+    print(f"bench_pairs.py: {message}", file=sys.stderr)
+    sys.exit(2)
 
 
 class Pair:
@@ -71,25 +67,25 @@ class Variant:
         self.ed_fit = Path(folder) / "ed_fit"
         self.flags = shlex.split(flags)
         if not os.access(self.ed_fit, os.X_OK):
-            sys.exit(f"bench_pairs.py: {self.ed_fit} is not there; build it "
-                     "(scripts/demo.sh does) or name its folder with --bin")
+            wrong_call(f"{self.ed_fit} is not there; build it (scripts/demo.sh does) or name its "
+                       "folder with --bin")
 
 
 def find_pairs(folders, names, target):
     pairs = []
     for folder in folders:
         if not folder.is_dir():
-            sys.exit(f"bench_pairs.py: {folder} is no folder")
+            wrong_call(f"{folder} is no folder")
         pairs += [Pair(source.parent, target) for source in sorted(folder.glob("*/source.ply"))
                   if (source.parent / "target.ply").exists()]
     if names:
         unknown = set(names) - {pair.name for pair in pairs}
         if unknown:
-            sys.exit(f"bench_pairs.py: no pair {', '.join(sorted(unknown))}; there are "
-                     f"{', '.join(pair.name for pair in pairs)}")
+            wrong_call(f"no pair {', '.join(sorted(unknown))}; there are "
+                       f"{', '.join(pair.name for pair in pairs)}")
         pairs = [pair for pair in pairs if pair.name in names]
     if not pairs:
-        sys.exit("bench_pairs.py: no pairs found")
+        wrong_call("no pairs found")
     return pairs
 
 
@@ -152,6 +148,7 @@ def summarise(runs, pair, ed_eval, result, work):
     row = dict(runs[0], pair=pair.name, truth=None, nothing=None, rigid=None)
     row.update({key: statistics.median(one[key] for one in runs) for key in MEDIANS})
     row["surface"] = evaluation["symmetric"]["mean_percent"]
+    row["backward"] = evaluation["backward"]["mean_percent"]
     row["trimmed"] = 100.0 * evaluation["symmetric"]["trimmed"] / evaluation["diagonal"]
     row["edge_p99"] = 100.0 * shape["edge_p99"] if shape else None
     row["flipped"] = shape.get("flipped")
@@ -182,83 +179,6 @@ def bench_pair(variants, pair, options, work):
         row = summarise(runs[variant.name], pair, options.ed_eval, first, work)
         rows.append(dict(row, variant=variant.name))
     return rows, agreed
-
-
-def cell(value, decimals):
-    if value is None:
-        return "-"
-    return str(value) if decimals is None else f"{value:.{decimals}f}"
-
-
-def ratio_row(a, b):
-    row = {key: None for key, _, _ in COLUMNS}
-    row.update(pair=a["pair"], variant="B/A")
-    for key in RATIOS:
-        row[key] = b[key] / a[key] if a[key] and b[key] is not None else None
-    return row
-
-
-def print_table(rows, compared):
-    columns = ([("variant", "", None)] if compared else []) + COLUMNS
-    lines = [[heading for _, heading, _ in columns]]
-    for row in rows:
-        decimals = 2 if row["variant"] == "B/A" else None
-        lines.append([cell(row[key], decimals if decimals and key in RATIOS else default)
-                      for key, _, default in columns])
-    if compared:  # the pair's name stands first
-        lines = [[line[1], line[0]] + line[2:] for line in lines]
-    text_columns = 2 if compared else 1
-    widths = [max(len(line[i]) for line in lines) for i in range(len(columns))]
-    for line in lines:
-        print("  ".join(text.ljust(width) if i < text_columns else text.rjust(width)
-                        for i, (text, width) in enumerate(zip(line, widths))))
-
-
-def published_figures():
-    """Returns {pair: {program: "truth %, seconds"}} of data/published.csv."""
-    figures = {}
-    with open(PUBLISHED, newline="") as file:
-        for row in csv.DictReader(line for line in file if not line.startswith("#")):
-            error = (f"{row['truth_percent']}" if row["truth_percent"] else
-                     f"{row['surface_percent']} (surface)" if row["surface_percent"] else None)
-            text = f"{error}; {row['seconds']} s" if error else row["note"]
-            figures.setdefault(row["pair"], {})[row["program"]] = text
-    return figures
-
-
-def markdown(rows):
-    """Returns the tables of README.md: shipped pairs, then those by others."""
-    published = published_figures()
-    shipped = [row for row in rows if (ROOT / "data" / row["pair"]).is_dir()]
-    real = [row for row in rows if row not in shipped]
-    lines = ["| shipped pair | doing nothing | best rigid | truth | surface (80 %) | flips | time s "
-             "| MB | nodes |", "|---|---|---|---|---|---|---|---|---|"]
-    for row in shipped:
-        fields = [cell(row[key], places) for key, places in
-                  (("pair", None), ("nothing", 2), ("rigid", 2), ("truth", 2), ("trimmed", 3),
-                   ("flipped", 0), ("time_s", 1), ("memory_mb", 0), ("nodes", 0))]
-        fields[0] = f"`{fields[0]}`"
-        lines.append("| " + " | ".join(fields) + " |")
-    if real:
-        lines += ["", "| pair by others | nothing / best rigid | ed_fit: truth | surface | time s "
-                  "| SPARE | AMM_NRR |", "|---|---|---|---|---|---|---|"]
-    for row in real:
-        others = published.get(row["pair"], {})
-        before = (f"{cell(row['nothing'], 1)} / {cell(row['rigid'], 2)}"
-                  if row["truth"] is not None else "-")
-        lines.append(f"| {row['pair']} | {before} | {cell(row['truth'], 2)} "
-                     f"| {cell(row['surface'], 3)} | {row['time_s']:.1f} "
-                     f"| {others.get('SPARE', '-')} | {others.get('AMM_NRR', '-')} |")
-    return "\n".join(lines)
-
-
-def write_readme(path, rows):
-    """Puts the tables between the two marks of `path`."""
-    text = Path(path).read_text()
-    if text.count(BEGIN) != 1 or text.count(END) != 1:
-        sys.exit(f"bench_pairs.py: {path} lacks the marks {BEGIN} and {END}")
-    head, tail = text.split(BEGIN)[0], text.split(END)[1]
-    Path(path).write_text(f"{head}{BEGIN}\n{markdown(rows)}\n{END}{tail}")
 
 
 def parse_options():
@@ -330,7 +250,7 @@ def main():
                 rows.append(ratio_row(*of_pair))
     print_table(rows, options.compared)
     if failed and options.readme:
-        print("bench_pairs.py: a run failed, so the README stays as it is", file=sys.stderr)
+        print(f"bench_pairs.py: a run failed, {options.readme} stays as it is", file=sys.stderr)
         options.readme = None
     save(options, rows)
     return 1 if failed else 0

@@ -35,16 +35,17 @@ for source in data/*/source.ply; do
   if [[ -f $folder/gt.ply ]]; then truth=(--truth="$folder/gt.ply"); fi
   "$apps/ed_eval" "$out/fitted.ply" "$folder/target.ply" --source="$source" "${truth[@]}" \
     --report="$out/eval.json" --error_ply="$out/error.ply"
-  rows+=("$pair $(number "$out/eval.json" symmetric mean_percent) \
+  rows+=("$pair $(number "$out/eval.json" backward mean_percent) \
     $(number "$out/eval.json" truth mean_percent) $(number "$out/fit.json" time_s total)")
 done
 
-say "mean distance in percent of the target's diagonal, and time; results are in build/demo/"
-printf '%-24s %12s %12s %10s\n' pair "to target" "to truth" seconds
+# From the target, for most of a result has no counterpart where the target is a partial view.
+say "mean distances in percent of the target's diagonal, and time; results are in build/demo/"
+printf '%-18s %18s %18s %10s\n' pair "target to result" "result to truth" seconds
 for row in "${rows[@]}"; do
   read -r pair surface truth seconds <<<"$row"
   for value in surface truth seconds; do
     if [[ ${!value} != - ]]; then printf -v "$value" '%.3f' "${!value}"; fi
   done
-  printf '%-24s %12s %12s %10s\n' "$pair" "$surface" "$truth" "$seconds"
+  printf '%-18s %18s %18s %10s\n' "$pair" "$surface" "$truth" "$seconds"
 done

@@ -17,6 +17,8 @@ from pathlib import Path
 try:
     import matplotlib
     matplotlib.use("Agg")
+    import matplotlib.collections
+    import matplotlib.colors
     import matplotlib.pyplot as plt
     import numpy as np
 except ImportError as error:
@@ -26,21 +28,21 @@ import ply
 
 ROOT = Path(__file__).resolve().parent.parent
 
-GRAY = np.array([0.80, 0.81, 0.83])
-BLUE = np.array([0.62, 0.74, 0.86])
+GRAY = np.array([0.82, 0.83, 0.85])
+BLUE = np.array([0.60, 0.74, 0.90])
+HEAT = ["#fbeec2", "#fdc25a", "#f4783b", "#cf2431", "#6a0f2b"]
 PR_COLOR, PI_COLOR = "#d95f02", "#2060a8"
 SUPERSAMPLING = 3
 
 
 class View:
-    """A perspective camera that looks at a box of points."""
+    """A perspective camera around z that takes in all of some points."""
 
-    def __init__(self, points, azimuth, elevation, up, pixels):
+    def __init__(self, points, azimuth, elevation, pixels):
         azimuth, elevation = np.radians([azimuth, elevation])
-        axes = {"z": np.eye(3), "y": np.array([[1, 0, 0], [0, 0, -1], [0, 1, 0]], float)}[up]
-        backward = axes.T @ np.array([np.cos(elevation) * np.cos(azimuth),
-                                      np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
-        right = np.cross(axes.T @ np.array([0.0, 0.0, 1.0]), backward)
+        backward = np.array([np.cos(elevation) * np.cos(azimuth),
+                             np.cos(elevation) * np.sin(azimuth), np.sin(elevation)])
+        right = np.cross([0.0, 0.0, 1.0], backward)
         right /= np.linalg.norm(right)
         self.rotation = np.stack([right, np.cross(backward, right), backward])
         self.center = 0.5 * (points.min(axis=0) + points.max(axis=0))
@@ -76,13 +78,11 @@ def vertex_normals(points, triangles):
 
 
 def shade(normals, colors):
-    """Lambert from two lamps that move with the camera, and a small highlight; both sides lit."""
+    """Lambert, a lamp over the left shoulder and one at the camera; both sides of a surface lit."""
     normals = np.where(normals[:, 2:] < 0.0, -normals, normals)
     lamp = np.array([-0.45, 0.55, 0.70]) / np.linalg.norm([-0.45, 0.55, 0.70])
-    diffuse = 0.62 * np.clip(normals @ lamp, 0.0, 1.0) + 0.20 * normals[:, 2]
-    half = lamp + np.array([0.0, 0.0, 1.0])
-    gloss = np.clip(normals @ (half / np.linalg.norm(half)), 0.0, 1.0) ** 40
-    return np.clip(colors * (0.30 + diffuse)[:, None] + 0.10 * gloss[:, None], 0.0, 1.0)
+    light = 0.42 + 0.40 * np.clip(normals @ lamp, 0.0, 1.0) + 0.22 * normals[:, 2]
+    return np.clip(colors * light[:, None], 0.0, 1.0)
 
 
 def render(view, points, triangles, colors):
@@ -179,9 +179,9 @@ def draw_row(row, files, view_angles, color_map, full_scale, panel):
         axes.set_axis_off()
 
 
-# Pair, (azimuth, elevation, axis that points up), caption.
-ROWS = [("dolphin_bend", (-60.0, 28.0, "z"), "whole target"),
-        ("kidney_partial", (20.0, 15.0, "z"), "target seen from one side")]
+# Pair, azimuth and elevation of the view in degrees, what its target is.
+ROWS = [("dolphin_bend", (38.0, 22.0), "all of it"),
+        ("heart_partial", (-38.0, 18.0), "what a camera saw")]
 
 
 def compose(fits, full_scale, panel, output):
@@ -192,8 +192,8 @@ def compose(fits, full_scale, panel, output):
     bottom = 66.0 / (height * dpi)
     grid = figure.add_gridspec(len(ROWS), 4, left=0.01, right=0.99, top=top, bottom=bottom,
                                wspace=0.02, hspace=0.02)
-    color_map = matplotlib.colormaps["YlOrRd"]
-    for i, ((pair, angles, _), files) in enumerate(zip(ROWS, fits)):
+    color_map = matplotlib.colors.LinearSegmentedColormap.from_list("error", HEAT)
+    for i, ((pair, angles, target), files) in enumerate(zip(ROWS, fits)):
         row = [figure.add_subplot(grid[i, j]) for j in range(4)]
         draw_row(row, files, angles, color_map, full_scale, panel)
         if i == 0:
@@ -201,12 +201,10 @@ def compose(fits, full_scale, panel, output):
             for axes, title in zip(row, titles):
                 axes.set_title(title, fontsize=11, pad=6)
         nodes, evaluation = files["report"]["nodes"], files["eval"]
-        row[0].text(4, panel[1] - 4, pair, fontsize=8.5, color="#404040", va="bottom")
-        row[2].text(4, panel[1] - 4, f"mean {evaluation['truth']['mean_percent']:.2f} %, "
-                    f"{files['report']['time_s']['total']:.1f} s", fontsize=8.5, color="#404040",
-                    va="bottom")
-        row[3].text(4, panel[1] - 4, f"{nodes['pr']} PR, {nodes['pi']} PI", fontsize=8.5,
-                    color="#404040", va="bottom")
+        captions = (pair, target, f"mean {evaluation['truth']['mean_percent']:.2f} %",
+                    f"{nodes['pr']} PR, {nodes['pi']} PI")
+        for axes, caption in zip(row, captions):
+            axes.text(4, panel[1] - 2, caption, fontsize=8.5, color="#404040", va="bottom")
     bar = figure.add_axes([0.52, 40.0 / (height * dpi), 0.20, 10.0 / (height * dpi)])
     scale = matplotlib.cm.ScalarMappable(matplotlib.colors.Normalize(0.0, full_scale), color_map)
     figure.colorbar(scale, cax=bar, orientation="horizontal", extend="max")
@@ -237,7 +235,7 @@ def main():
             fits = [fit(apps, pair, Path(work)) for pair, _, _ in ROWS]
         except (OSError, subprocess.CalledProcessError) as error:
             sys.exit(f"plot_readme.py: {error}")
-        compose(fits, options.full_scale, (310, 220), options.output)
+        compose(fits, options.full_scale, (300, 200), options.output)
     print(options.output)
 
 

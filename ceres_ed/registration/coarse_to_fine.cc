@@ -88,9 +88,11 @@ Status CoarseToFine::Run(FitResult* result) {
   if (Status status = BuildGraphs(options.schedule.levels, result); !status.ok()) return status;
   const std::vector<LevelPlan> plans = PlanLevels(options, static_cast<int>(graphs_.size()));
   const int last = static_cast<int>(graphs_.size()) - 1;
-  // Without a target there is nothing to match, and one way to go.
+  // Without matches, or with a loss that has no width, there is one way to go.
   std::vector<double> loss_widths = {options.coarse_loss_width};
-  if (fit_.target != nullptr) loss_widths.push_back(options.loss_width);
+  if (fit_.target != nullptr && options.loss != LossType::kSquared) {
+    loss_widths.push_back(options.loss_width);
+  }
   double best_missed = std::numeric_limits<double>::infinity();
   int start = -1;
   for (std::size_t i = 0; i < loss_widths.size() && last > 0; ++i) {

@@ -61,8 +61,6 @@ class NonrigidLoop {
   double energy_ = 0.0;
   double stiffness_ = 1.0;
   bool initial_energy_known_ = false;
-  MatchingOptions mo_;
-  double lw_ = 10;
 };
 
 // True, with the reason in the result, when the fit has to end now.
@@ -176,20 +174,6 @@ void NonrigidLoop::Run() {
     stiffness_ =
         plan_.first_stiffness * std::pow(plan_.last_stiffness / plan_.first_stiffness, part);
     problem_->SetStiffness(stiffness_);
-    {
-      auto e = [](const char* n, double d) {
-        const char* v = getenv(n);
-        return v ? atof(v) : d;
-      };
-      mo_ = options_.matching;
-      lw_ = options_.loss_width;
-      if (plan_.progress_begin == 0 && plan_.steps > 2) {
-        double f = double(step) / (plan_.steps - 1);
-        int seg = f < e("SEG", 0.5) ? 0 : 1;
-        mo_.max_deviations = e(seg ? "DEV1" : "DEV0", mo_.max_deviations);
-        lw_ = e(seg ? "LW1" : "LW0", lw_);
-      }
-    }
     for (int round = 0; round < schedule.max_rounds; ++round) {
       outcome = RunRound(schedule.solver_iterations);
       const double done = (step + double(round + 1) / schedule.max_rounds) / plan_.steps;

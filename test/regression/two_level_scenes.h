@@ -3,6 +3,7 @@
 #define CERES_ED_TEST_REGRESSION_TWO_LEVEL_SCENES_H_
 
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/problem/problem_builder.h>
@@ -106,17 +107,20 @@ struct SceneResult {
 // must outlive this. No camera: the gauge is settled.
 class SceneProblem {
  public:
-  explicit SceneProblem(const RegressionScene& scene)
+  explicit SceneProblem(const RegressionScene& scene,
+                        const std::string& data_energy = "point_to_point")
       : scene_(scene), builder_(scene.graph.graph, /*has_camera=*/false) {
     RegisterBuiltinEnergies(&registry_);
+    PointCloud truth = scene.rest;
+    truth.points = scene.truth;
+    const std::vector<Eigen::Vector3d> normals = ComputeVertexNormals(truth);
     for (std::size_t p = 0; p < scene.rest.size(); ++p) {
       if (scene.visible[p] == 0) continue;
-      correspondences_.push_back(
-          {static_cast<int>(p), scene.truth[p], Eigen::Vector3d::Zero(), 1.0});
+      correspondences_.push_back({static_cast<int>(p), scene.truth[p], normals[p], 1.0});
     }
     Add("rotation", 1.0);
     Add("regularization", 10.0);
-    Add("point_to_point", 100.0);
+    Add(data_energy, 100.0);
   }
 
   const ProblemBuilder& builder() const { return builder_; }
@@ -132,9 +136,17 @@ class SceneProblem {
     options.max_iterations = 200;
     options.function_tolerance = 1e-12;
     options.parameter_tolerance = 1e-12;
+    const SolveSummary summary = MakeStrategy(strategy)->Solve(builder_, options, &state);
+    SceneResult result = Measure(state);
+    result.energy = summary.final_energy;
+    result.summary = summary;
+    return result;
+  }
+
+  // Everything but energy and summary.
+  SceneResult Measure(const DeformationState& state) const {
     SceneResult result;
-    result.summary = MakeStrategy(strategy)->Solve(builder_, options, &state);
-    result.energy = result.summary.final_energy;
+    result.state = state;
     WarpPoints(
         scene_.graph.graph, state, scene_.graph.skinning, scene_.rest.points, 1, &result.points);
     double squares[2] = {0.0, 0.0};
@@ -146,7 +158,6 @@ class SceneProblem {
     }
     result.visible_rms = std::sqrt(squares[1] / counts[1]);
     result.hidden_rms = std::sqrt(squares[0] / counts[0]);
-    result.state = std::move(state);
     return result;
   }
 

@@ -1,0 +1,104 @@
+"""The tables of bench_pairs.py: on the terminal and in README.md."""
+import csv
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PUBLISHED = ROOT / "data" / "published.csv"
+BEGIN, END = "<!-- bench_pairs.py: begin -->", "<!-- bench_pairs.py: end -->"
+
+# Field, heading, decimals. Compared variants show the ratio B/A of those in RATIOS.
+COLUMNS = [
+    ("pair", "pair", None), ("nothing", "nothing %", 2), ("rigid", "rigid %", 2),
+    ("truth", "truth %", 3), ("surface", "surface %", 3), ("trimmed", "trimmed %", 3),
+    ("backward", "target %", 3), ("edge_p99", "edge p99 %", 1), ("flipped", "flips", 0), ("time_s", "time s", 2),
+    ("wall_s", "wall s", 2), ("cpu_s", "cpu s", 2), ("memory_mb", "MB", 0),
+    ("nodes", "nodes", 0), ("inliers", "inliers", 0),
+]
+RATIOS = ("truth", "surface", "trimmed", "backward", "time_s", "wall_s", "cpu_s", "memory_mb")
+
+
+def cell(value, decimals):
+    if value is None:
+        return "-"
+    return str(value) if decimals is None else f"{value:.{decimals}f}"
+
+
+def ratio_row(a, b):
+    row = {key: None for key, _, _ in COLUMNS}
+    row.update(pair=a["pair"], variant="B/A")
+    for key in RATIOS:
+        row[key] = b[key] / a[key] if a[key] and b[key] is not None else None
+    return row
+
+
+def print_table(rows, compared):
+    columns = ([("variant", "", None)] if compared else []) + COLUMNS
+    lines = [[heading for _, heading, _ in columns]]
+    for row in rows:
+        decimals = 2 if row["variant"] == "B/A" else None
+        lines.append([cell(row[key], decimals if decimals and key in RATIOS else default)
+                      for key, _, default in columns])
+    if compared:  # the pair's name stands first
+        lines = [[line[1], line[0]] + line[2:] for line in lines]
+    text_columns = 2 if compared else 1
+    widths = [max(len(line[i]) for line in lines) for i in range(len(columns))]
+    for line in lines:
+        print("  ".join(text.ljust(width) if i < text_columns else text.rjust(width)
+                        for i, (text, width) in enumerate(zip(line, widths))))
+
+
+def published_figures():
+    """Returns {pair: {program: errors and seconds, or why there are none}} of data/published.csv."""
+    figures = {}
+    with open(PUBLISHED, newline="") as file:
+        for row in csv.DictReader(line for line in file if not line.startswith("#")):
+            parts = [f"{name} {row[name + '_percent']}" for name in ("truth", "surface")
+                     if row[name + "_percent"]]
+            if row["seconds"]:
+                parts.append(f"{row['seconds']} s")
+            figures.setdefault(row["pair"], {})[row["program"]] = ", ".join(parts) or row["note"]
+    return figures
+
+
+def table(headings, rows):
+    lines = ["| " + " | ".join(headings) + " |", "|---|" + "--:|" * (len(headings) - 1)]
+    return lines + ["| " + " | ".join(row) + " |" for row in rows]
+
+
+def shipped_row(row):
+    places = (("nothing", 2), ("rigid", 2), ("truth", 2), ("backward", 3), ("edge_p99", 1),
+              ("flipped", 0), ("time_s", 1), ("memory_mb", 0), ("nodes", 0))
+    return [f"`{row['pair']}`"] + [cell(row[key], decimals) for key, decimals in places]
+
+
+def real_row(row, published):
+    others = published.get(row["pair"], {})
+    errors = [] if row["truth"] is None else [f"truth {row['truth']:.3f}"]
+    # Of a partial target most of the result has no counterpart: no distance both ways then.
+    if row["truth"] is None or any("surface" in text for text in others.values()):
+        errors.append(f"surface {row['surface']:.3f}")
+    return [row["pair"], cell(row["nothing"], 1), cell(row["rigid"], 1), ", ".join(errors),
+            f"{row['time_s']:.1f}", others.get("SPARE", "-"), others.get("AMM_NRR", "-")]
+
+
+def markdown(rows):
+    """Returns the tables of README.md: shipped pairs, then those by others."""
+    shipped = [row for row in rows if (ROOT / "data" / row["pair"]).is_dir()]
+    real = [row for row in rows if row not in shipped]
+    lines = table(["shipped pair", "nothing %", "rigid %", "truth %", "target %", "edge p99 %",
+                   "flips", "s", "MB", "nodes"], [shipped_row(row) for row in shipped])
+    if real:
+        published = published_figures()
+        lines += [""] + table(["pair by others", "nothing %", "rigid %", "`ed_fit` %", "s",
+                               "SPARE", "AMM_NRR"], [real_row(row, published) for row in real])
+    return "\n".join(lines)
+
+
+def write_readme(path, rows):
+    """Puts the tables between the two marks of `path`."""
+    text = Path(path).read_text()
+    if text.count(BEGIN) != 1 or text.count(END) != 1:
+        sys.exit(f"bench_pairs.py: {path} lacks the marks {BEGIN} and {END}")
+    head, tail = text.split(BEGIN)[0], text.split(END)[1]
+    Path(path).write_text(f"{head}{BEGIN}\n{markdown(rows)}\n{END}{tail}")

@@ -1,0 +1,109 @@
+// What README.md says is what is there.
+#include <ceres_ed/energy/builtin_energies.h>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <test/cli/run_program.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+std::string ReadSourceFile(const std::string& path) {
+  std::ifstream file(std::string(CERES_ED_SOURCE_DIR) + "/" + path, std::ios::binary);
+  EXPECT_TRUE(file.is_open()) << path;
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// The first capture of every match.
+std::vector<std::string> FindAll(const std::string& text, const char* pattern) {
+  const std::regex regex(pattern);
+  std::vector<std::string> found;
+  for (std::sregex_iterator it(text.begin(), text.end(), regex), end; it != end; ++it) {
+    found.push_back((*it)[1]);
+  }
+  return found;
+}
+
+std::string ParameterCell(const EnergyInfo& energy) {
+  std::ostringstream cell;
+  for (const EnergyParameter& parameter : energy.parameters) {
+    cell << (cell.tellp() > 0 ? ", " : "") << "`" << parameter.name << "` (" << parameter.unit
+         << ", default " << parameter.default_value << ")";
+  }
+  return cell.tellp() > 0 ? cell.str() : "-";
+}
+
+// The table of energies as README.md must have it.
+std::string EnergyTable() {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  std::string table =
+      "| energy | kind | what it wants | residual | unit | parameters "
+      "|\n|---|---|---|---|---|---|\n";
+  for (const EnergyInfo* energy : registry.List()) {
+    const char* kind = energy->kind == EnergyKind::kObservation ? "observation" : "prior";
+    table += "| `" + energy->name + "` | " + kind + " | " + energy->summary + " | `" +
+             energy->equation + "` | " + energy->unit + " | " + ParameterCell(*energy) + " |\n";
+  }
+  return table;
+}
+
+TEST(Readme, ShowsTheHelloExampleAsItIsCompiled) {
+  const std::string example = ReadSourceFile("apps/examples/01_hello/hello.cc");
+  ASSERT_FALSE(example.empty());
+  EXPECT_THAT(ReadSourceFile("README.md"), HasSubstr("```cpp\n" + example + "```\n"));
+}
+
+TEST(Readme, ListsTheEnergiesAsTheRegistryHasThem) {
+  const std::string readme = ReadSourceFile("README.md");
+  const std::string table = EnergyTable();
+  // Not HasSubstr, which would print all of the file: what to paste is the table.
+  EXPECT_NE(readme.find("\n\n" + table + "\n"), std::string::npos) << "expected:\n" << table;
+}
+
+TEST(Readme, LinksOnlyToWhatIsThere) {
+  const std::string readme = ReadSourceFile("README.md");
+  const std::vector<std::string> links = FindAll(readme, "\\]\\(([^)]+)\\)");
+  ASSERT_GE(links.size(), 10u);
+  for (const std::string& link : links) {
+    const std::string path = link.substr(0, link.find('#'));
+    if (link.rfind("http", 0) == 0 || path.empty()) continue;
+    EXPECT_TRUE(std::filesystem::exists(std::string(CERES_ED_SOURCE_DIR) + "/" + path)) << link;
+  }
+  for (const std::string& script : FindAll(readme, "(scripts/[a-z_]+\\.(?:sh|py))")) {
+    EXPECT_TRUE(std::filesystem::exists(std::string(CERES_ED_SOURCE_DIR) + "/" + script)) << script;
+  }
+}
+
+TEST(Readme, GivesProgramsOnlyFlagsThatTheyHave) {
+  const std::string readme = ReadSourceFile("README.md");
+  // A line of code, or a piece of it in a line of text.
+  const std::regex command("(?:\n    |`)(ed_[a-z_]+) ([^`\n]*)");
+  int num_flags = 0;
+  for (std::sregex_iterator it(readme.begin(), readme.end(), command), end; it != end; ++it) {
+    const std::string program = (*it)[1];
+    const ProgramResult help = RunProgramFile(AppPath(program), {"--help"});
+    ASSERT_EQ(help.exit_code, 0) << program;
+    const std::vector<std::string> known = FindAll(help.out, "\n  --([a-z_]+)");
+    for (const std::string& flag : FindAll((*it)[2], "--([a-z_]+)")) {
+      EXPECT_THAT(known, Contains(flag)) << program;
+      ++num_flags;
+    }
+  }
+  EXPECT_GE(num_flags, 8);
+}
+
+}  // namespace
+}  // namespace ceres_ed
