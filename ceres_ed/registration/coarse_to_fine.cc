@@ -63,8 +63,7 @@ Status CoarseToFine::RunLevel(
   FitProblem problem(graph, points);
   Status status = problem.AddEnergies(*fit_.options, *fit_.registry, fit_.landmarks, fit_.fixed);
   if (!status.ok()) return status;
-  RunNonrigidLoop(
-      *fit_.source, fit_.target, graph, *fit_.options, plan, *fit_.clock, &problem, state, result);
+  RunNonrigidLoop(fit_, graph, plan, &problem, state, result);
   return Status::Ok();
 }
 

@@ -4,25 +4,12 @@
 
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/registration/nonrigid_loop.h>
-#include <ceres_ed/util/timer.h>
+#include <ceres_ed/registration/unit_fit.h>
 
 #include <utility>
 #include <vector>
 
 namespace ceres_ed {
-
-// What a fit is about, all in the unit frame. The pointers must outlive the fit.
-struct UnitFit {
-  const Surface* source = nullptr;
-  // Null: landmarks alone.
-  const Surface* target = nullptr;
-  const FitOptions* options = nullptr;
-  const EnergyRegistry* registry = nullptr;
-  std::vector<Correspondence> landmarks;
-  std::vector<Correspondence> fixed;
-  // Started with the fit.
-  const Timer* clock = nullptr;
-};
 
 // Runs the levels one after the other and carries the warp from graph to graph. On the coarse
 // graphs a narrow and a wide loss are both tried: a narrow one lets limbs that are far away wait

@@ -11,25 +11,22 @@ constexpr int kPatientIterations = 10;
 
 class NonrigidLoop {
  public:
-  NonrigidLoop(const Surface& source,
-               const Surface* target,
+  NonrigidLoop(const UnitFit& fit,
                const BuiltGraph& graph,
-               const FitOptions& options,
                const LevelPlan& plan,
-               const Timer& clock,
                FitProblem* problem,
                DeformationState* state,
                FitResult* result)
-      : source_(source),
-        target_(target),
+      : source_(*fit.source),
+        target_(fit.target),
+        options_(*fit.options),
+        clock_(*fit.clock),
         graph_(graph),
-        options_(options),
         plan_(plan),
-        clock_(clock),
         problem_(problem),
         state_(state),
         result_(result),
-        strategy_(MakeStrategy(options.strategy)) {}
+        strategy_(MakeStrategy(options_.strategy)) {}
 
   void Run();
 
@@ -46,10 +43,10 @@ class NonrigidLoop {
 
   const Surface& source_;
   const Surface* target_;
-  const BuiltGraph& graph_;
   const FitOptions& options_;
-  const LevelPlan& plan_;
   const Timer& clock_;
+  const BuiltGraph& graph_;
+  const LevelPlan& plan_;
   FitProblem* problem_;
   DeformationState* state_;
   FitResult* result_;
@@ -222,16 +219,13 @@ std::vector<LevelPlan> PlanLevels(const FitOptions& options, int levels) {
   return plans;
 }
 
-void RunNonrigidLoop(const Surface& source,
-                     const Surface* target,
+void RunNonrigidLoop(const UnitFit& fit,
                      const BuiltGraph& graph,
-                     const FitOptions& options,
                      const LevelPlan& plan,
-                     const Timer& clock,
                      FitProblem* problem,
                      DeformationState* state,
                      FitResult* result) {
-  NonrigidLoop(source, target, graph, options, plan, clock, problem, state, result).Run();
+  NonrigidLoop(fit, graph, plan, problem, state, result).Run();
 }
 
 }  // namespace ceres_ed

@@ -4,7 +4,7 @@
 
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/registration/fit_problem.h>
-#include <ceres_ed/util/timer.h>
+#include <ceres_ed/registration/unit_fit.h>
 
 #include <vector>
 
@@ -31,16 +31,12 @@ inline constexpr int kMinCoarseSamples = 1000;
 // The plans of `levels` >= 1 levels, coarse to fine.
 std::vector<LevelPlan> PlanLevels(const FitOptions& options, int levels);
 
-// Moves `state` so that the warped `source` follows `target` (null: landmarks alone). All lengths
-// are in the unit frame. Fills in status, message, point_relevant, matches, energies, iterations
-// and times of `result`; `clock` started with the
-// fit. The status stays failed, interrupted or time_limit where the loop ended early.
-void RunNonrigidLoop(const Surface& source,
-                     const Surface* target,
+// Moves `state` over `graph` so that the warped source follows the target. `problem` has the
+// energies of the fit. Fills in status, message, point_relevant, matches, energies, iterations and
+// times of `result`. The status stays failed, interrupted or time_limit where the loop ended early.
+void RunNonrigidLoop(const UnitFit& fit,
                      const BuiltGraph& graph,
-                     const FitOptions& options,
                      const LevelPlan& plan,
-                     const Timer& clock,
                      FitProblem* problem,
                      DeformationState* state,
                      FitResult* result);

@@ -1,10 +1,10 @@
 #include "ceres_ed/registration/rigid_registration.h"
 
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/registration/rigid_starts.h>
 #include <ceres_ed/util/parallel.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <sstream>
@@ -27,8 +27,11 @@ constexpr int kMinPairs = 6;
 // Weight of point-to-point beside point-to-plane.
 constexpr double kPointShare = 0.1;
 // A direction in which the mean squared normal displacement of a unit motion is below this isn't
-// determined by point-to-plane distances.
+// determined by point-to-plane distances, unless a step along it explains this share of them.
 constexpr double kLeastCurvature = 0.05;
+constexpr double kLeastExplained = 0.1;
+// Distances below this fraction of the score's width are rounding.
+constexpr double kNegligible = 1e-4;
 
 // A pair in the target frame: where the source point is, and the plane that it should be on.
 struct PlanePair {
@@ -45,6 +48,17 @@ struct PlanePair {
 
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 using Matrix7 = Eigen::Matrix<double, 7, 7>;
+
+// The normal equations of a step; the right side apart for the two kinds of distance.
+struct StepSums {
+  Matrix7 H = Matrix7::Zero();
+  Vector7 plane_b = Vector7::Zero();
+  Vector7 point_b = Vector7::Zero();
+  double plane_energy = 0.0;
+  double weight = 0.0;
+  // Weighted sum of squared levers.
+  double spread = 0.0;
+};
 
 class RigidAligner {
  public:
@@ -63,10 +77,7 @@ class RigidAligner {
 
  private:
   bool Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const;
-  Vector7 SolveObserved(const Matrix7& H,
-                        const Vector7& b,
-                        double total_weight,
-                        double radius) const;
+  Vector7 SolveObserved(const StepSums& sums) const;
 
   const Surface& source_;
   const Surface& target_;
@@ -139,29 +150,33 @@ bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Simil
   }
   if (count < kMinPairs) return false;
   center /= count;
-  Matrix7 H = Matrix7::Zero();
-  Vector7 b = Vector7::Zero();
-  double total_weight = 0.0;
-  double spread = 0.0;
+  StepSums sums;
   for (const PlanePair& pair : pairs) {
     if (!pair.IsUsable()) continue;
     const Eigen::Vector3d arm = pair.moved - center;
     const Eigen::Vector3d gap = pair.moved - pair.target;
     const double ratio = sigma * sigma / (sigma * sigma + pair.squared_distance);
     const double weight = ratio * ratio;
-    const auto add = [&](double share, const Eigen::Vector3d& direction) {
+    const auto derivative = [&arm](const Eigen::Vector3d& direction) {
       Vector7 J;
       J << arm.cross(direction), direction, direction.dot(arm);
-      H += weight * share * J * J.transpose();
-      b -= weight * share * direction.dot(gap) * J;
+      return J;
     };
-    add(1.0, pair.normal);
-    for (int axis = 0; axis < 3; ++axis) add(kPointShare, Eigen::Vector3d::Unit(axis));
-    total_weight += weight;
-    spread += weight * arm.squaredNorm();
+    const Vector7 J_plane = derivative(pair.normal);
+    const double r_plane = pair.normal.dot(gap);
+    sums.H += weight * J_plane * J_plane.transpose();
+    sums.plane_b -= weight * r_plane * J_plane;
+    sums.plane_energy += weight * r_plane * r_plane;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector7 J = derivative(Eigen::Vector3d::Unit(axis));
+      sums.H += kPointShare * weight * J * J.transpose();
+      sums.point_b -= kPointShare * weight * gap[axis] * J;
+    }
+    sums.weight += weight;
+    sums.spread += weight * arm.squaredNorm();
   }
-  if (!(spread > 0.0)) return false;
-  const Vector7 delta = SolveObserved(H, b, total_weight, std::sqrt(spread / total_weight));
+  if (!(sums.spread > 0.0)) return false;
+  const Vector7 delta = SolveObserved(sums);
   if (!delta.allFinite()) return false;
   const double angle = delta.head<3>().norm();
   Similarity step;
@@ -175,27 +190,33 @@ bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Simil
 }
 
 // The step in the directions that the pairs really determine. A sheet slides in its plane and a
-// round body turns about its axis at no cost: where the surfaces differ by more than a rigid motion
-// they would do so, so these directions are left as they are (Zhang et al. 2016, "On degeneracy").
-// Turns are measured at `radius`, so that all directions have the unit of a length.
-Vector7 RigidAligner::SolveObserved(const Matrix7& H,
-                                    const Vector7& b,
-                                    double total_weight,
-                                    double radius) const {
+// round body turns about its axis at next to no cost: where the surfaces differ by more than a
+// rigid motion they would do so, so a direction of little curvature is left as it is (Zhang et al.
+// 2016, "On degeneracy") unless moving along it explains a good part of the point-to-plane
+// distances. Turns are measured at the root mean square lever, so that all directions have the unit
+// of a length.
+Vector7 RigidAligner::SolveObserved(const StepSums& sums) const {
+  const double lever = std::sqrt(sums.spread / sums.weight);
   Vector7 unit;
-  unit << Eigen::Vector3d::Constant(radius), Eigen::Vector3d::Ones(), radius;
+  unit << Eigen::Vector3d::Constant(lever), Eigen::Vector3d::Ones(), lever;
   const Vector7 per_unit = unit.cwiseInverse();
   const int size = options_.with_scale ? 7 : 6;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
-      (per_unit.asDiagonal() * H * per_unit.asDiagonal()).topLeftCorner(size, size));
-  Eigen::VectorXd along = eigen.eigenvectors().transpose() * per_unit.cwiseProduct(b).head(size);
+      (per_unit.asDiagonal() * sums.H * per_unit.asDiagonal()).topLeftCorner(size, size));
+  const Eigen::MatrixXd& directions = eigen.eigenvectors();
+  const Eigen::VectorXd plane =
+      directions.transpose() * per_unit.cwiseProduct(sums.plane_b).head(size);
+  Eigen::VectorXd along =
+      plane + directions.transpose() * per_unit.cwiseProduct(sums.point_b).head(size);
+  const double unexplained = sums.plane_energy + sums.weight * std::pow(kNegligible * width_, 2);
   for (int i = 0; i < size; ++i) {
     const double curvature = eigen.eigenvalues()[i];
-    const bool observed = curvature > (kPointShare + kLeastCurvature) * total_weight;
-    along[i] = observed ? along[i] / curvature : 0.0;
+    const bool curved = curvature > (kPointShare + kLeastCurvature) * sums.weight;
+    const bool explains = plane[i] * plane[i] > kLeastExplained * curvature * unexplained;
+    along[i] = curvature > 0.0 && (curved || explains) ? along[i] / curvature : 0.0;
   }
   Vector7 delta = Vector7::Zero();
-  delta.head(size) = eigen.eigenvectors() * along;
+  delta.head(size) = directions * along;
   return per_unit.cwiseProduct(delta);
 }
 
@@ -224,76 +245,10 @@ Similarity RigidAligner::Refine(Similarity pose, int samples, int iterations) co
   return pose;
 }
 
-Eigen::Vector3d Centroid(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points) sum += point;
-  return sum / static_cast<double>(points.size());
-}
-
-Eigen::Matrix3d PrincipalAxes(const std::vector<Eigen::Vector3d>& points) {
-  const Eigen::Vector3d center = Centroid(points);
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  for (const Eigen::Vector3d& point : points) {
-    covariance += (point - center) * (point - center).transpose();
-  }
-  Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
-  if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
-  return axes;
-}
-
-// The 24 rotations that take a cube to itself, identity among them.
-std::vector<Eigen::Matrix3d> CubeRotations() {
-  std::vector<Eigen::Matrix3d> rotations;
-  std::array<int, 3> axes = {0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
-      for (int i = 0; i < 3; ++i) R(i, axes[i]) = (signs >> i & 1) != 0 ? -1.0 : 1.0;
-      if (R.determinant() > 0.0) rotations.push_back(R);
-    }
-  } while (std::next_permutation(axes.begin(), axes.end()));
-  return rotations;
-}
-
-// The pose that turns about the source's centroid by R and takes it to the target's.
-Similarity CenteredPose(const Eigen::Matrix3d& R,
-                        double scale,
-                        const Eigen::Vector3d& from,
-                        const Eigen::Vector3d& to) {
-  Similarity pose;
-  pose.scale = scale;
-  pose.rotation = Eigen::Quaterniond(R);
-  pose.translation = to - scale * (R * from);
-  return pose;
-}
-
 struct ScoredPose {
   Similarity pose;
   double score = 1.0;
 };
-
-// Centroids aligned, principal axes aligned in their four proper ways, and every turn of a cube.
-std::vector<Similarity> OtherStarts(const Surface& source,
-                                    const Surface& target,
-                                    const Similarity& initial) {
-  const Eigen::Vector3d from = Centroid(source.cloud().points);
-  const Eigen::Vector3d to = Centroid(target.cloud().points);
-  const Eigen::Matrix3d R_initial = initial.rotation.toRotationMatrix();
-  std::vector<Similarity> starts = {CenteredPose(R_initial, initial.scale, from, to)};
-  const Eigen::Matrix3d source_axes = PrincipalAxes(source.cloud().points);
-  const Eigen::Matrix3d target_axes = PrincipalAxes(target.cloud().points);
-  for (const Eigen::Vector3d& signs : {Eigen::Vector3d(1, 1, 1),
-                                       Eigen::Vector3d(1, -1, -1),
-                                       Eigen::Vector3d(-1, 1, -1),
-                                       Eigen::Vector3d(-1, -1, 1)}) {
-    const Eigen::Matrix3d R = target_axes * signs.asDiagonal() * source_axes.transpose();
-    starts.push_back(CenteredPose(R, initial.scale, from, to));
-  }
-  for (const Eigen::Matrix3d& R : CubeRotations()) {
-    starts.push_back(CenteredPose(R * R_initial, initial.scale, from, to));
-  }
-  return starts;
-}
 
 }  // namespace
 
@@ -332,7 +287,8 @@ RigidResult AlignRigid(const Surface& source,
   const auto offer = [&](const ScoredPose& candidate) {
     if (candidate.score < options.preference * best.score) best = candidate;
   };
-  const std::vector<Similarity> starts = OtherStarts(source, target, initial);
+  const std::vector<Similarity> starts =
+      RigidStarts(source.cloud().points, target.cloud().points, initial);
   if (best.score > options.good_score && !stopped()) {
     offer(refined(starts.front()));
     ++result.starts_tried;

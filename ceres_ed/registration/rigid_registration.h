@@ -19,7 +19,7 @@ struct RigidOptions {
   // starts are compared, > 0.
   double score_width = 0.03;
   // A start is good enough not to try the costlier ones when its score is below this, in [0, 1].
-  double good_score = 0.2;
+  double good_score = 0.1;
   // A start that is not the given pose must beat it by this factor to be preferred, in (0, 1]:
   // inputs of the same sensor are more often near their place than not.
   double preference = 0.85;

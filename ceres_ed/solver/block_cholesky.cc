@@ -1,9 +1,8 @@
 #include "ceres_ed/solver/block_cholesky.h"
 
-#include <algorithm>
-#include <cstddef>
+#include <ceres_ed/solver/ordered_structure.h>
+
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include <Eigen/SparseCholesky>
@@ -47,137 +46,6 @@ SparseMatrix ScalarPattern(const BlockStructure& structure) {
   matrix.makeCompressed();
   return matrix;
 }
-
-// The same blocks in another order, and where the values of each entry go there.
-class OrderedStructure {
- public:
-  // `order[k]` is the block that comes k-th.
-  OrderedStructure(const BlockStructure& original, const std::vector<int>& order)
-      : original_(original), position_(order.size()), ordered_(MakeOrdered(original, order)) {
-    for (int k = 0; k < static_cast<int>(order.size()); ++k) position_[order[k]] = k;
-    // A value's place in the scalar matrix: where its entry starts in the first column of its block
-    // column, and how the columns of that block column follow one another.
-    std::ptrdiff_t column_start = 0;
-    entry_start_.resize(ordered_.num_entries());
-    column_height_.resize(ordered_.num_blocks());
-    for (int j = 0; j < ordered_.num_blocks(); ++j) {
-      std::ptrdiff_t height = 0;
-      for (int e = ordered_.column_begin(j); e < ordered_.column_begin(j + 1); ++e) {
-        entry_start_[e] = column_start + height;
-        height += ordered_.size(ordered_.entry_row(e));
-      }
-      column_height_[j] = height;
-      const int size = ordered_.size(j);
-      column_start += height * size - size * (size - 1) / 2;
-    }
-    for (int j = 0; j < original.num_blocks(); ++j) {
-      for (int e = original.column_begin(j); e < original.column_begin(j + 1); ++e) {
-        const int row = position_[original.entry_row(e)];
-        const int column = position_[j];
-        entry_of_.push_back(ordered_.FindEntry(std::max(row, column), std::min(row, column)));
-        transposed_.push_back(row < column ? 1 : 0);
-      }
-    }
-  }
-
-  const BlockStructure& ordered() const { return ordered_; }
-
-  // Copies block values into the scalar lower triangle and adds the diagonal.
-  void FillValues(const double* values, const Eigen::VectorXd& diagonal, double* out) const {
-    for (int j = 0; j < original_.num_blocks(); ++j) {
-      for (int e = original_.column_begin(j); e < original_.column_begin(j + 1); ++e) {
-        const int i = original_.entry_row(e);
-        const double* block = values + original_.value_offset(e);
-        if (i == j) {
-          CopyDiagonal(j, entry_of_[e], block, diagonal, out);
-        } else {
-          CopyBlock(i, j, entry_of_[e], transposed_[e] != 0, block, out);
-        }
-      }
-    }
-  }
-
-  // Moves rows between the two orders.
-  void ToOrdered(const Eigen::VectorXd& rows, double* ordered_rows) const {
-    for (int j = 0; j < original_.num_blocks(); ++j) {
-      std::copy_n(rows.data() + original_.row_offset(j),
-                  original_.size(j),
-                  ordered_rows + ordered_.row_offset(position_[j]));
-    }
-  }
-  void FromOrdered(const double* ordered_rows, Eigen::VectorXd* rows) const {
-    rows->resize(original_.num_rows());
-    for (int j = 0; j < original_.num_blocks(); ++j) {
-      std::copy_n(ordered_rows + ordered_.row_offset(position_[j]),
-                  original_.size(j),
-                  rows->data() + original_.row_offset(j));
-    }
-  }
-
- private:
-  static BlockStructure MakeOrdered(const BlockStructure& original, const std::vector<int>& order) {
-    std::vector<int> position(order.size());
-    std::vector<int> sizes;
-    for (int k = 0; k < static_cast<int>(order.size()); ++k) {
-      position[order[k]] = k;
-      sizes.push_back(original.size(order[k]));
-    }
-    std::vector<std::pair<int, int>> pairs;
-    for (int j = 0; j < original.num_blocks(); ++j) {
-      for (int e = original.column_begin(j); e < original.column_begin(j + 1); ++e) {
-        pairs.emplace_back(position[original.entry_row(e)], position[j]);
-      }
-    }
-    return BlockStructure(std::move(sizes), pairs);
-  }
-
-  // Scalar column c of a block column is c rows shorter than its first: only the lower triangle is
-  // stored.
-  std::ptrdiff_t ColumnShift(int ordered_column, int c) const {
-    return c * column_height_[ordered_column] - c * (c + 1) / 2;
-  }
-
-  void CopyDiagonal(int block,
-                    int ordered_entry,
-                    const double* values,
-                    const Eigen::VectorXd& diagonal,
-                    double* out) const {
-    const int size = original_.size(block);
-    for (int c = 0; c < size; ++c) {
-      double* column = out + entry_start_[ordered_entry] + ColumnShift(position_[block], c);
-      for (int r = c; r < size; ++r) column[r] = values[c * size + r];
-      column[c] += diagonal[original_.row_offset(block) + c];
-    }
-  }
-
-  void CopyBlock(int row,
-                 int column,
-                 int ordered_entry,
-                 bool transposed,
-                 const double* values,
-                 double* out) const {
-    const int rows = original_.size(row);
-    const int columns = original_.size(column);
-    const int ordered_column = transposed ? position_[row] : position_[column];
-    double* start = out + entry_start_[ordered_entry];
-    for (int c = 0; c < (transposed ? rows : columns); ++c) {
-      double* target = start + ColumnShift(ordered_column, c);
-      if (transposed) {
-        for (int r = 0; r < columns; ++r) target[r] = values[r * rows + c];
-      } else {
-        std::copy_n(values + c * rows, rows, target);
-      }
-    }
-  }
-
-  const BlockStructure& original_;
-  std::vector<int> position_;
-  BlockStructure ordered_;
-  std::vector<std::ptrdiff_t> entry_start_;
-  std::vector<std::ptrdiff_t> column_height_;
-  std::vector<int> entry_of_;
-  std::vector<char> transposed_;
-};
 
 }  // namespace
 

@@ -1,5 +1,6 @@
 #include "ceres_ed/testing/energy_laws.h"
 
+#include <cmath>
 #include <functional>
 #include <memory>
 #include <string>
@@ -138,7 +139,7 @@ TEST(CheckEnergyLaws, FindsACostThatBreaksALaw) {
   const std::vector<std::string> violations =
       Check(AnchorInfo(), [](const EnergyContext& context, ResidualSink* sink) {
         const BlockRef block = BlockRef::Node(0);
-        const double gain = context.correspondences->empty() ? 1.0 / 0.0 : 1.0;
+        const double gain = context.correspondences->empty() ? std::nan("") : 1.0;
         sink->Add(MakeAnchor(gain), &block, 1);
       });
   EXPECT_THAT(violations, Contains(HasSubstr("values are not finite with empty lists")));

@@ -1,0 +1,29 @@
+// What every step of a fit works on.
+#ifndef CERES_ED_REGISTRATION_UNIT_FIT_H_
+#define CERES_ED_REGISTRATION_UNIT_FIT_H_
+
+#include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/registration/surface.h>
+#include <ceres_ed/util/timer.h>
+
+#include <vector>
+
+namespace ceres_ed {
+
+// What a fit is about, all in the unit frame. The pointers must outlive the fit.
+struct UnitFit {
+  const Surface* source = nullptr;
+  // Null: landmarks alone.
+  const Surface* target = nullptr;
+  const FitOptions* options = nullptr;
+  const EnergyRegistry* registry = nullptr;
+  std::vector<Correspondence> landmarks;
+  std::vector<Correspondence> fixed;
+  // Started with the fit.
+  const Timer* clock = nullptr;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_REGISTRATION_UNIT_FIT_H_

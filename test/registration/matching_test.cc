@@ -1,0 +1,174 @@
+#include "ceres_ed/registration/matching.h"
+
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+// A flat grid of (columns x rows) points, one unit apart, facing +z.
+PointCloud MakeGrid(int columns, int rows, const Eigen::Vector3d& origin) {
+  PointCloud grid;
+  for (int r = 0; r < rows; ++r) {
+    for (int c = 0; c < columns; ++c) grid.points.push_back(origin + Eigen::Vector3d(c, r, 0.0));
+  }
+  for (int r = 0; r + 1 < rows; ++r) {
+    for (int c = 0; c + 1 < columns; ++c) {
+      const int a = r * columns + c;
+      grid.triangles.push_back({a, a + 1, a + columns});
+      grid.triangles.push_back({a + 1, a + columns + 1, a + columns});
+    }
+  }
+  return grid;
+}
+
+std::vector<int> All(const PointCloud& cloud) {
+  std::vector<int> indices(cloud.size());
+  std::iota(indices.begin(), indices.end(), 0);
+  return indices;
+}
+
+Matches MatchAtRest(const Surface& source, const Surface& target, const MatchingOptions& options) {
+  return MatchBothWays({&source, &source.cloud().points, &source.cloud().normals},
+                       All(source.cloud()),
+                       target,
+                       All(target.cloud()),
+                       options);
+}
+
+TEST(Matching, FindsTheFootOfThePerpendicularBothWays) {
+  // The source lies inside the target's outline, 0.2 above it and between its points.
+  const Surface source(MakeGrid(4, 4, {2.5, 2.5, 0.2}));
+  const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
+  const Matches matches = MatchAtRest(source, target, MatchingOptions());
+  int forward = 0;
+  for (const Correspondence& match : matches.correspondences) {
+    const Eigen::Vector3d& point = source.cloud().points[match.point];
+    EXPECT_LT((match.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+    EXPECT_NEAR(match.target.z(), 0.0, 1e-12);
+    if ((match.target - point).head<2>().norm() < 1e-12) ++forward;
+  }
+  // All 16 source points, and back to the four inner points that are on no border.
+  EXPECT_EQ(forward, 16);
+  EXPECT_GT(matches.inliers, 16);
+  EXPECT_NEAR(matches.rms_plane, 0.2, 1e-12);
+  EXPECT_EQ(matches.candidates, 16 + 81);
+}
+
+TEST(Matching, RejectsWhatLiesBeyondABorder) {
+  // Two thirds of the source hang over the target's edge at x = 4.
+  const Surface source(MakeGrid(9, 5, {2.0, 2.0, 0.1}));
+  const Surface target(MakeGrid(5, 9, {0.0, 0.0, 0.0}));
+  const Matches matches = MatchAtRest(source, target, MatchingOptions());
+  ASSERT_GT(matches.inliers, 0);
+  for (const Correspondence& match : matches.correspondences) {
+    EXPECT_LT(source.cloud().points[match.point].x(), 4.5);
+  }
+}
+
+TEST(Matching, RejectsNormalsThatDisagreeUnlessUnoriented) {
+  const Surface source(MakeGrid(4, 4, {2.5, 2.5, 0.1}));
+  PointCloud turned = MakeGrid(9, 9, {0.0, 0.0, 0.0});
+  for (auto& triangle : turned.triangles) std::swap(triangle[0], triangle[1]);
+  EXPECT_EQ(MatchAtRest(source, Surface(turned), MatchingOptions()).inliers, 0);
+  turned.normals.assign(turned.size(), -Eigen::Vector3d::UnitZ());
+  turned.normals_oriented = false;
+  EXPECT_GE(MatchAtRest(source, Surface(turned), MatchingOptions()).inliers, 16);
+}
+
+TEST(Matching, RejectsWhatIsTooFar) {
+  const Surface source(MakeGrid(4, 4, {2.5, 2.5, 0.5}));
+  const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
+  MatchingOptions options;
+  options.max_distance = 0.4;
+  EXPECT_EQ(MatchAtRest(source, target, options).inliers, 0);
+
+  // One point far above many near ones goes by its deviation, and stays within the resolution.
+  PointCloud bent = MakeGrid(4, 4, {2.5, 2.5, 0.1});
+  bent.points[5].z() = 2.0;
+  bent.normals.assign(bent.size(), Eigen::Vector3d::UnitZ());
+  const Surface bent_source(bent);
+  const auto has_point_5 = [](const Matches& matches) {
+    for (const Correspondence& match : matches.correspondences) {
+      if (match.point == 5 && match.target.z() == 0.0) return true;
+    }
+    return false;
+  };
+  options = MatchingOptions();
+  options.max_deviations = 3.0;
+  const Matches by_deviation =
+      MatchBothWays({&bent_source, &bent_source.cloud().points, &bent_source.cloud().normals},
+                    All(bent_source.cloud()),
+                    target,
+                    {},
+                    options);
+  EXPECT_FALSE(has_point_5(by_deviation));
+  EXPECT_EQ(by_deviation.inliers, 15);
+  options.resolution = 2.5;
+  EXPECT_TRUE(has_point_5(
+      MatchBothWays({&bent_source, &bent_source.cloud().points, &bent_source.cloud().normals},
+                    All(bent_source.cloud()),
+                    target,
+                    {},
+                    options)));
+}
+
+TEST(Matching, WeighsEachDirectionByAreaToAtMostOne) {
+  const Surface source(MakeGrid(6, 6, {1.3, 1.3, 0.1}));
+  const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
+  const Matches forward = MatchBothWays({&source, &source.cloud().points, &source.cloud().normals},
+                                        All(source.cloud()),
+                                        target,
+                                        {},
+                                        MatchingOptions());
+  double sum = 0.0;
+  for (const Correspondence& match : forward.correspondences) sum += match.weight;
+  EXPECT_NEAR(sum, 1.0, 1e-12);
+  // A corner stands for less area than an inner point.
+  EXPECT_LT(source.relative_areas()[0], source.relative_areas()[7]);
+}
+
+TEST(Matching, UnmatchedShareIsZeroOnACopyAndOneOutOfReach) {
+  const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
+  const MovedSource same{&target, &target.cloud().points, &target.cloud().normals};
+  const std::vector<int> all = All(target.cloud());
+  EXPECT_NEAR(UnmatchedShare(same, all, target, all, 0.1, MatchingOptions()), 0.0, 1e-12);
+  std::vector<Eigen::Vector3d> lifted = target.cloud().points;
+  for (Eigen::Vector3d& point : lifted) point.z() += 0.1;
+  const MovedSource above{&target, &lifted, &target.cloud().normals};
+  // d = width: d^2 / (d^2 + width^2) = 1 / 2.
+  EXPECT_NEAR(UnmatchedShare(above, all, target, all, 0.1, MatchingOptions()), 0.5, 1e-9);
+  MatchingOptions near;
+  near.max_distance = 0.01;
+  EXPECT_EQ(UnmatchedShare(above, all, target, all, 0.1, near), 1.0);
+}
+
+TEST(Matching, IsTheSameOnTwoThreads) {
+  const Surface source(MakeGrid(6, 6, {1.3, 1.4, 0.3}));
+  const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
+  MatchingOptions two;
+  two.num_threads = 2;
+  const Matches a = MatchAtRest(source, target, MatchingOptions());
+  const Matches b = MatchAtRest(source, target, two);
+  ASSERT_EQ(a.inliers, b.inliers);
+  for (int i = 0; i < a.inliers; ++i) {
+    EXPECT_EQ(a.correspondences[i].point, b.correspondences[i].point);
+    EXPECT_EQ(a.correspondences[i].target, b.correspondences[i].target);
+  }
+}
+
+TEST(SamplePoints, LeavesOutIsolatedVerticesAndKeepsToTheCount) {
+  PointCloud grid = MakeGrid(6, 6, {0.0, 0.0, 0.0});
+  grid.points.emplace_back(50.0, 0.0, 0.0);
+  const Surface surface(grid);
+  EXPECT_EQ(SamplePoints(surface, 1000).size(), 36u);
+  const std::vector<int> ten = SamplePoints(surface, 10);
+  EXPECT_EQ(ten.size(), 10u);
+  for (const int point : ten) EXPECT_NE(point, 36);
+}
+
+}  // namespace
+}  // namespace ceres_ed
