@@ -50,6 +50,12 @@ Status SaveCloud(const std::string& path,
                  const std::vector<Eigen::Vector3d>& points,
                  const std::vector<Eigen::Vector3d>* normals);
 
+// The same for a cloud as LoadCloud gave it.
+Status SaveCloud(const std::string& path,
+                 const LoadedCloud& original,
+                 const std::vector<Eigen::Vector3d>& points,
+                 const std::vector<Eigen::Vector3d>* normals);
+
 struct CloudWriteOptions {
   PlyFormat format = PlyFormat::kBinaryLittleEndian;
   // Positions and normals as double instead of float.

@@ -102,4 +102,11 @@ Status WriteCloud(const std::string& path,
   return WritePly(path, document);
 }
 
+Status SaveCloud(const std::string& path,
+                 const LoadedCloud& original,
+                 const std::vector<Eigen::Vector3d>& points,
+                 const std::vector<Eigen::Vector3d>* normals) {
+  return SaveCloud(path, original.document, original.vertex_of_point, points, normals);
+}
+
 }  // namespace ceres_ed
