@@ -27,11 +27,8 @@ Outcome Run(const std::vector<std::string>& arguments) {
   if (Status status = ApplyWarp(*warp, &cloud); !status.ok()) {
     return Outcome::BadInput(Status::Error(arguments[0] + ": " + status.message()));
   }
-  const Status saved = SaveCloud(FLAGS_output,
-                                 loaded->document,
-                                 loaded->vertex_of_point,
-                                 cloud.points,
-                                 cloud.HasNormals() ? &cloud.normals : nullptr);
+  const Status saved =
+      SaveCloud(FLAGS_output, *loaded, cloud.points, cloud.HasNormals() ? &cloud.normals : nullptr);
   if (!saved.ok()) return Outcome::BadInput(saved);
 
   for (const std::string& warning : loaded->warnings) LOG(WARNING) << warning;

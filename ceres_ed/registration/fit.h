@@ -91,9 +91,9 @@ struct FitOptions {
   FitWeights weights;
   FitSchedule schedule;
   // Type of the data loss; its width follows the spread of the residuals, a multiple of their
-  // robust standard deviation, > 0. While there are few nodes it is narrow: limbs that are far from
-  // their place wait until what carries them is near. On the last level it is wide, so that they
-  // are fetched.
+  // robust standard deviation, > 0. While there are few nodes both widths are tried: with the
+  // narrow one, limbs that are far from their place wait until what carries them is near; the wide
+  // one fetches them at once. The last level has the wide one.
   LossType loss = LossType::kWelsch;
   double coarse_loss_width = 3.0;
   double loss_width = 10.0;

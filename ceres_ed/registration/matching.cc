@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// The normal of a consistent median: 1.4826 median |x| estimates sigma of a Gaussian.
+// 1.4826 median |x| estimates sigma of a Gaussian.
 constexpr double kMadToSigma = 1.4826;
 
 // A pair before it is believed.
@@ -23,35 +23,41 @@ struct Candidate {
   bool IsPlausible() const { return normals_agree && !on_border; }
 };
 
-double NormalAgreement(const Eigen::Vector3d& a, const Eigen::Vector3d& b, bool oriented) {
-  const double cosine = a.dot(b);
-  return oriented ? cosine : std::abs(cosine);
-}
+// Whether two normals are near enough, up to sign where either surface knows them only so far.
+class NormalTest {
+ public:
+  NormalTest(const Surface& a, const Surface& b, const MatchingOptions& options)
+      : min_cosine_(std::cos(options.max_angle_deg * M_PI / 180.0)),
+        oriented_(a.cloud().normals_oriented && b.cloud().normals_oriented) {}
 
-bool AreOriented(const Surface& a, const Surface& b) {
-  return a.cloud().normals_oriented && b.cloud().normals_oriented;
-}
+  bool Agree(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
+    const double cosine = a.dot(b);
+    return (oriented_ ? cosine : std::abs(cosine)) >= min_cosine_;
+  }
+
+ private:
+  double min_cosine_;
+  bool oriented_;
+};
 
 void MatchForward(const MovedSource& source,
                   const std::vector<int>& samples,
                   const Surface& target,
                   const MatchingOptions& options,
-                  std::vector<Candidate>* candidates) {
-  const double min_cosine = std::cos(options.max_angle_deg * M_PI / 180.0);
-  const bool oriented = AreOriented(*source.rest, target);
+                  Candidate* candidates) {
+  const NormalTest normals(*source.rest, target, options);
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const int point = samples[i];
       const SurfaceHit hit = target.index().Closest((*source.points)[point], options.max_distance);
       if (!hit.found()) continue;
-      Candidate& candidate = (*candidates)[i];
+      Candidate& candidate = candidates[i];
       const Eigen::Vector3d normal = target.NormalAt(hit);
       candidate.match = {
           point, hit.position, normal, source.rest->relative_areas()[point] / samples.size()};
       candidate.distance = std::sqrt(hit.squared_distance);
       candidate.on_border = hit.on_border;
-      candidate.normals_agree =
-          NormalAgreement((*source.normals)[point], normal, oriented) >= min_cosine;
+      candidate.normals_agree = normals.Agree((*source.normals)[point], normal);
     }
   });
 }
@@ -62,8 +68,7 @@ void MatchBackward(const MovedSource& source,
                    const MatchingOptions& options,
                    Candidate* candidates) {
   if (samples.empty()) return;
-  const double min_cosine = std::cos(options.max_angle_deg * M_PI / 180.0);
-  const bool oriented = AreOriented(*source.rest, target);
+  const NormalTest normals(*source.rest, target, options);
   const KdTree tree(*source.points);
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
@@ -76,8 +81,7 @@ void MatchBackward(const MovedSource& source,
           nearest.index, position, normal, target.relative_areas()[samples[i]] / samples.size()};
       candidate.distance = std::sqrt(nearest.squared_distance);
       candidate.on_border = source.rest->topology().is_border[nearest.index] != 0;
-      candidate.normals_agree =
-          NormalAgreement((*source.normals)[nearest.index], normal, oriented) >= min_cosine;
+      candidate.normals_agree = normals.Agree((*source.normals)[nearest.index], normal);
     }
   });
 }
@@ -101,7 +105,7 @@ std::vector<Candidate> FindCandidates(const MovedSource& source,
                                       const std::vector<int>& target_samples,
                                       const MatchingOptions& options) {
   std::vector<Candidate> candidates(source_samples.size() + target_samples.size());
-  MatchForward(source, source_samples, target, options, &candidates);
+  MatchForward(source, source_samples, target, options, candidates.data());
   MatchBackward(source, target, target_samples, options, candidates.data() + source_samples.size());
   return candidates;
 }
@@ -131,7 +135,7 @@ Matches MatchBothWays(const MovedSource& source,
                       const std::vector<int>& target_samples,
                       const MatchingOptions& options) {
   std::vector<Candidate> candidates(source_samples.size() + target_samples.size());
-  MatchForward(source, source_samples, target, options, &candidates);
+  MatchForward(source, source_samples, target, options, candidates.data());
   MatchBackward(source, target, target_samples, options, candidates.data() + source_samples.size());
 
   Matches matches;
