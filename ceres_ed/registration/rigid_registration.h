@@ -16,10 +16,11 @@ struct RigidOptions {
   // No pair whose normals differ by more, in (0, 180] degrees.
   double max_angle_deg = 60.0;
   // Distance, as a fraction of the target's diagonal, at which a point counts half as missed when
-  // starts are compared, > 0.
+  // poses are compared, > 0.
   double score_width = 0.03;
-  // A start is good enough not to try the costlier ones when its score is below this, in [0, 1].
-  double good_score = 0.1;
+  // The given pose, refined, is good enough not to search for another one when less than this of
+  // the surface that is explained better is missed, in [0, 1].
+  double good_score = 0.15;
   // A start that is not the given pose must beat it by this factor to be preferred, in (0, 1]:
   // inputs of the same sensor are more often near their place than not.
   double preference = 0.85;
@@ -33,17 +34,25 @@ struct RigidOptions {
 
 struct RigidResult {
   Similarity target_from_source;
-  // In [0, 1]: how much is missed, from both sides; 0 is a perfect fit. The robust mean of
-  // d^2 / (d^2 + w^2) over points of both surfaces, with 1 where the normals disagree.
+  // In [0, 1]: how much is missed, mostly of the surface that is explained better (of a partial
+  // target nearly all can be explained, of the whole source beside it little); 0 is a perfect fit.
+  // RigidScore::Total over the points themselves.
   double score = 1.0;
   // Of the pose that was given.
   double initial_score = 1.0;
+  // Poses that were refined, the given one included.
   int starts_tried = 0;
 };
 
-// Robust point-to-plane ICP (both directions, Geman-McClure with a width annealed to the spread of
-// the residuals) from the given pose and from aligned centroids; where these fail, from the four
-// alignments of the principal axes and from the 24 rotations of a cube. The best score wins.
+// The pose that explains most of the surface that is explained better. Robust point-to-plane ICP
+// (both directions, Geman-McClure with a width annealed to the spread of the residuals) refines
+// poses on thinned out, smoothed surfaces (coarse_surface.h). The given pose comes first. Where it
+// misses more than good_score, others follow: centroids aligned, with the given orientation and
+// with the principal axes in their four ways, and what the search finds that lays the smaller
+// surface on every part of the larger one (rigid_search.h). All are refined roughly, the best of
+// them better; the winner replaces the given pose if it is better by `preference`. Last, ICP on the
+// points themselves. Turns that leave the smaller surface equally well explained can't be told
+// apart: a smooth part without features is found only up to a slide.
 RigidResult AlignRigid(const Surface& source,
                        const Surface& target,
                        const Similarity& initial,

@@ -1,8 +1,5 @@
 #include "ceres_ed/registration/rigid_starts.h"
 
-#include <algorithm>
-#include <array>
-
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
@@ -24,20 +21,6 @@ Eigen::Matrix3d PrincipalAxes(const std::vector<Eigen::Vector3d>& points) {
   Eigen::Matrix3d axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
   if (axes.determinant() < 0.0) axes.col(0) *= -1.0;
   return axes;
-}
-
-// The 24 rotations that take a cube to itself, identity among them.
-std::vector<Eigen::Matrix3d> CubeRotations() {
-  std::vector<Eigen::Matrix3d> rotations;
-  std::array<int, 3> axes = {0, 1, 2};
-  do {
-    for (int signs = 0; signs < 8; ++signs) {
-      Eigen::Matrix3d R = Eigen::Matrix3d::Zero();
-      for (int i = 0; i < 3; ++i) R(i, axes[i]) = (signs >> i & 1) != 0 ? -1.0 : 1.0;
-      if (R.determinant() > 0.0) rotations.push_back(R);
-    }
-  } while (std::next_permutation(axes.begin(), axes.end()));
-  return rotations;
 }
 
 // The pose that turns about the source's centroid by R and takes it to the target's.
@@ -69,9 +52,6 @@ std::vector<Similarity> RigidStarts(const std::vector<Eigen::Vector3d>& source,
                                        Eigen::Vector3d(-1, -1, 1)}) {
     const Eigen::Matrix3d R = target_axes * signs.asDiagonal() * source_axes.transpose();
     starts.push_back(CenteredPose(R, initial.scale, from, to));
-  }
-  for (const Eigen::Matrix3d& R : CubeRotations()) {
-    starts.push_back(CenteredPose(R * R_initial, initial.scale, from, to));
   }
   return starts;
 }

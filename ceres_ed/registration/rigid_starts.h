@@ -11,8 +11,8 @@
 namespace ceres_ed {
 
 // Poses to try beside `initial`, all with its scale and with the centroids aligned: first its own
-// orientation, then the principal axes aligned in their four proper ways, then the 24 turns of a
-// cube on top of its orientation. Neither set of points is empty.
+// orientation, then the principal axes aligned in their four proper ways. Neither set of points is
+// empty.
 std::vector<Similarity> RigidStarts(const std::vector<Eigen::Vector3d>& source,
                                     const std::vector<Eigen::Vector3d>& target,
                                     const Similarity& initial);

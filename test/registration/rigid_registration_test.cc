@@ -113,16 +113,10 @@ TEST(RigidStarts, AreProperRotationsThatAlignTheCentroids) {
   for (const Eigen::Vector3d& point : from.points) from_center += point / from.size();
   for (const Eigen::Vector3d& point : to.points) to_center += point / to.size();
   const std::vector<Similarity> starts = RigidStarts(from.points, to.points, Similarity());
-  ASSERT_EQ(starts.size(), 1u + 4u + 24u);
+  ASSERT_EQ(starts.size(), 1u + 4u);
   for (std::size_t i = 0; i < starts.size(); ++i) {
     EXPECT_NEAR(starts[i].rotation.toRotationMatrix().determinant(), 1.0, 1e-12) << i;
     EXPECT_LT((starts[i] * from_center - to_center).norm(), 1e-12) << i;
-  }
-  // The turns of a cube all differ.
-  for (std::size_t i = 5; i < starts.size(); ++i) {
-    for (std::size_t j = i + 1; j < starts.size(); ++j) {
-      EXPECT_GT(starts[i].rotation.angularDistance(starts[j].rotation), 1.0) << i << " " << j;
-    }
   }
 }
 
