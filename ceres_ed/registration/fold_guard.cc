@@ -10,6 +10,8 @@ namespace ceres_ed {
 namespace {
 
 constexpr double kMinCosine = 0.2;
+// Against the normal that the surface should have.
+constexpr double kFoldedCosine = 0.2;
 constexpr double kMaxAreaRatio = 10.0;
 // How often a displacement is smoothed, then halved, before it is taken back as a whole.
 constexpr int kSmoothings = 8;
@@ -47,7 +49,7 @@ class FoldFinder {
   FoldFinder(const FinishMesh& mesh,
              const std::vector<Eigen::Vector3d>& start,
              const std::vector<Eigen::Vector3d>& normals)
-      : mesh_(mesh), is_hit_(start.size(), 0) {
+      : mesh_(mesh), normals_(normals), is_hit_(start.size(), 0) {
     before_.reserve(mesh.triangles.size());
     for (const std::array<int, 3>& t : mesh.triangles) {
       const Eigen::Vector3d area = AreaVector(t, start);
@@ -62,7 +64,14 @@ class FoldFinder {
     for (const int t : triangles) {
       const Eigen::Vector3d& before = before_[t];
       const std::array<int, 3>& corners = mesh_.triangles[t];
-      if (before.isZero(0.0) || !IsBad(before, AreaVector(corners, points))) continue;
+      if (before.isZero(0.0)) continue;
+      const Eigen::Vector3d after = AreaVector(corners, points);
+      const Eigen::Vector3d should =
+          normals_[corners[0]] + normals_[corners[1]] + normals_[corners[2]];
+      // What was nearly folded may not turn the last bit.
+      const bool is_folded = after.dot(should) < kFoldedCosine * after.norm() * should.norm() &&
+                             after.dot(should) * before.norm() < before.dot(should) * after.norm();
+      if (!is_folded && !IsBad(before, after)) continue;
       for (const int v : corners) {
         if (is_hit_[v] == 0) hit.push_back(v);
         is_hit_[v] = 1;
@@ -74,6 +83,7 @@ class FoldFinder {
 
  private:
   const FinishMesh& mesh_;
+  const std::vector<Eigen::Vector3d>& normals_;
   // Zero for triangles that may turn.
   std::vector<Eigen::Vector3d> before_;
   std::vector<char> is_hit_;

@@ -11,10 +11,10 @@
 namespace ceres_ed {
 
 // Smooths, then shortens the way of the vertices from `start` to `points` around every triangle
-// whose normal turns by more than about 78 degrees (cosine 0.2), or whose area changes by more than
-// a factor of 10, until none is left. Triangles that are folded at `start` may turn: those whose
-// normal points away from `normals`, one a vertex of what the surface should look like. Returns how
-// many vertices were damped.
+// whose normal turns by more than about 78 degrees (cosine 0.2), or away from `normals` beyond
+// that, or whose area changes by more than a factor of 10, until none is left. `normals`, one a
+// vertex, are what the surface should have; triangles whose normal at `start` points away from them
+// are folded and may turn. Returns how many vertices were held back.
 int DampFolds(const FinishMesh& mesh,
               const std::vector<Eigen::Vector3d>& start,
               const std::vector<Eigen::Vector3d>& normals,
