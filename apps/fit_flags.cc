@@ -90,6 +90,7 @@ DEFINE_double(max_distance,
 DEFINE_double(max_angle_deg,
               Defaults().matching.max_angle_deg,
               "no match whose normals differ by more, degrees");
+DEFINE_bool(finish, Defaults().finish, "move every point onto TARGET in the end");
 DEFINE_string(energy, "", "more energies, NAME[:param=value,...];... (see ed_list_energies)");
 DEFINE_string(plugin, "", "shared object with more energies");
 DEFINE_int32(threads, Defaults().num_threads, "changes the time, not the result");
@@ -178,6 +179,7 @@ void ReadNumbers(FitOptions* options) {
   options->matching.max_distance =
       FLAGS_max_distance > 0.0 ? FLAGS_max_distance : std::numeric_limits<double>::infinity();
   options->matching.max_angle_deg = FLAGS_max_angle_deg;
+  options->finish = FLAGS_finish;
   options->num_threads = FLAGS_threads;
   if (FLAGS_time_limit_s > 0.0) options->time_limit_s = FLAGS_time_limit_s;
 }

@@ -103,6 +103,7 @@ ordered_json TimeReport(const FitRun& run) {
           {"solve", times.solve},
           {"level1", has_levels ? times.level1 : 0.0},
           {"level2", has_levels ? times.level2 : 0.0},
+          {"finish", times.finish},
           {"write", run.write_s}};
 }
 

@@ -1,5 +1,6 @@
 #include "ceres_ed/graph/warp.h"
 
+#include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/util/parallel.h>
 
 #include <string>
@@ -29,7 +30,25 @@ Status CheckWarp(const Warp& warp) {
     return Status::Error("the warp has " + std::to_string(warp.graph.num_nodes()) +
                          " nodes, but the state of " + std::to_string(warp.state.num_nodes()));
   }
+  if (warp.finish.displacements.size() != warp.finish.points.size()) {
+    return Status::Error("the finish has " + std::to_string(warp.finish.points.size()) +
+                         " points, but " + std::to_string(warp.finish.displacements.size()) +
+                         " displacements");
+  }
   return Status::Ok();
+}
+
+// Adds what the finish does to `cloud`, which the nodes have moved from `rest`.
+void ApplyFinish(const VertexField& field,
+                 const std::vector<Eigen::Vector3d>& rest,
+                 int num_threads,
+                 PointCloud* cloud) {
+  const std::vector<Eigen::Vector3d> displacements = EvaluateField(field, rest, num_threads);
+  const bool turn_normals = cloud->HasNormals() && cloud->HasTriangles();
+  std::vector<Eigen::Vector3d> before;
+  if (turn_normals) before = ComputeVertexNormals(*cloud);
+  for (std::size_t p = 0; p < cloud->size(); ++p) cloud->points[p] += displacements[p];
+  if (turn_normals) TurnNormals(before, ComputeVertexNormals(*cloud), &cloud->normals);
 }
 
 }  // namespace
@@ -116,10 +135,16 @@ Status ApplyWarp(const Warp& warp, const Skinning& skinning, PointCloud* cloud, 
     return Status::Error("the binding is of " + std::to_string(skinning.size()) +
                          " points, but the cloud has " + std::to_string(cloud->size()));
   }
+  const bool has_normals = cloud->HasNormals();
+  std::vector<Eigen::Vector3d> rest;
+  if (!warp.finish.empty()) rest = cloud->points;
   WarpPoints(warp.graph, warp.state, skinning, cloud->points, num_threads, &cloud->points);
+  if (has_normals) {
+    WarpNormals(warp.state, skinning, cloud->normals, num_threads, &cloud->normals);
+  }
+  if (!warp.finish.empty()) ApplyFinish(warp.finish, rest, num_threads, cloud);
   for (Eigen::Vector3d& point : cloud->points) point = warp.target_from_source * point;
-  if (!cloud->HasNormals()) return Status::Ok();
-  WarpNormals(warp.state, skinning, cloud->normals, num_threads, &cloud->normals);
+  if (!has_normals) return Status::Ok();
   for (Eigen::Vector3d& normal : cloud->normals) {
     normal = warp.target_from_source.rotation * normal;
   }

@@ -8,6 +8,7 @@
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/graph/skinning.h>
+#include <ceres_ed/graph/vertex_field.h>
 #include <ceres_ed/util/status.h>
 
 #include <vector>
@@ -17,7 +18,8 @@
 namespace ceres_ed {
 
 // What a fit found, complete enough to deform any other cloud:
-//   v~ = s R sum_j w_j(v) [A_j (v - g_j) + g_j + t_j] + T   with s, R, T = target_from_source.
+//   v~ = s R (sum_j w_j(v) [A_j (v - g_j) + g_j + t_j] + f(v)) + T
+// with s, R, T = target_from_source and f what `finish` adds (nothing where that is empty).
 struct Warp {
   // In the frame and unit of the source.
   DeformationGraph graph;
@@ -27,6 +29,8 @@ struct Warp {
   Similarity target_from_source;
   // How points find their nodes.
   BindingOptions binding;
+  // In the frame and unit of the source, added to what the nodes do.
+  VertexField finish;
 };
 
 // sum_j w_j [A_j (v - g_j) + g_j + t_j]: the sum of Eq. 1, in the map frame (no camera).
@@ -62,7 +66,9 @@ void WarpNormals(const DeformationState& state,
                  std::vector<Eigen::Vector3d>* warped);
 
 // Binds `cloud` (in the source frame) to the warp's graph and takes its points and normals into the
-// target frame. Triangles stay. Fails on a warp without nodes or whose parts do not fit together.
+// target frame. Triangles stay. Where the warp has a finish, normals of a mesh turn along with
+// those of its triangles; those of bare points are as the nodes have them. Fails on a warp without
+// nodes or whose parts do not fit together.
 Status ApplyWarp(const Warp& warp, PointCloud* cloud, int num_threads = 1);
 
 // The same with the binding of the cloud's points at hand.

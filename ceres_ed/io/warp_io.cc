@@ -53,6 +53,12 @@ Status CheckFinite(const std::string& path, const Warp& warp) {
       return Status::Error(path + ": cannot write: edge " + std::to_string(e) + " is not finite");
     }
   }
+  for (std::size_t p = 0; p < warp.finish.points.size(); ++p) {
+    if (!warp.finish.points[p].allFinite() || !warp.finish.displacements[p].allFinite()) {
+      return Status::Error(path + ": cannot write: point " + std::to_string(p) +
+                           " of the finish is not finite");
+    }
+  }
   return Status::Ok();
 }
 
@@ -63,6 +69,18 @@ void WriteLines(const char* name, const std::vector<json>& values, std::ostream*
     *stream << (i == 0 ? "\n    " : ",\n    ") << values[i].dump();
   }
   *stream << "\n  ]";
+}
+
+void WriteFinish(const VertexField& field, std::ostream* stream) {
+  std::vector<json> points;
+  for (std::size_t p = 0; p < field.points.size(); ++p) {
+    const Eigen::Vector3d& at = field.points[p];
+    const Eigen::Vector3d& move = field.displacements[p];
+    points.push_back({at.x(), at.y(), at.z(), move.x(), move.y(), move.z()});
+  }
+  *stream << ",\n  \"finish\": {\n";
+  WriteLines("points", points, stream);
+  *stream << "\n  }";
 }
 
 // Reads fields out of a JSON tree and keeps the first thing that is wrong.
@@ -227,10 +245,26 @@ void ReadEdges(const json& root, FieldReader* reader, Warp* warp) {
   }
 }
 
+// Files of fits without a finish have none.
+void ReadFinish(const json& root, FieldReader* reader, VertexField* field) {
+  const auto found = root.find("finish");
+  if (found == root.end()) return;
+  const json& member = reader->Member(*found, "finish", "points");
+  if (!reader->ok()) return;
+  const json& points = reader->Array(member, "finish.points");
+  for (std::size_t p = 0; p < points.size() && reader->ok(); ++p) {
+    double values[6] = {};
+    reader->Numbers(points[p], "finish.points[" + std::to_string(p) + "]", 6, values);
+    field->points.emplace_back(values[0], values[1], values[2]);
+    field->displacements.emplace_back(values[3], values[4], values[5]);
+  }
+}
+
 }  // namespace
 
 Status WriteWarp(const std::string& path, const Warp& warp) {
   CHECK_EQ(warp.graph.num_nodes(), warp.state.num_nodes());
+  CHECK_EQ(warp.finish.points.size(), warp.finish.displacements.size());
   Status finite = CheckFinite(path, warp);
   if (!finite.ok()) return finite;
   StatusOr<std::unique_ptr<AtomicFile>> file = AtomicFile::Create(path);
@@ -262,6 +296,7 @@ Status WriteWarp(const std::string& path, const Warp& warp) {
   WriteLines("nodes", nodes, &stream);
   stream << ",\n";
   WriteLines("edges", edges, &stream);
+  if (!warp.finish.empty()) WriteFinish(warp.finish, &stream);
   stream << "\n}\n";
   return (*file)->Commit();
 }
@@ -285,6 +320,7 @@ StatusOr<Warp> ReadWarp(const std::string& path) {
   if (reader.ok()) ReadBinding(root, &reader, &warp.binding);
   if (reader.ok()) ReadNodes(root, &reader, &warp);
   if (reader.ok()) ReadEdges(root, &reader, &warp);
+  if (reader.ok()) ReadFinish(root, &reader, &warp.finish);
   if (!reader.ok()) return reader.status();
   return warp;
 }

@@ -15,7 +15,9 @@ namespace ceres_ed {
 //    "target_from_source": {"scale": s, "rotation": [w, x, y, z], "translation": [x, y, z]},
 //    "binding": {"neighbors": m, "distance": "surface" | "euclidean"},
 //    "nodes": [{"g": [3], "A": [9, column by column], "t": [3]}, ...],
-//    "edges": [[from, to, alpha], ...]}
+//    "edges": [[from, to, alpha], ...],
+//    "finish": {"points": [[x, y, z, dx, dy, dz], ...]}}
+// with "finish" only where the warp has one: points of the source and their displacements.
 // Errors: a number in `warp` that is not finite, or the system's reason. The camera and the number
 // of threads are not written.
 Status WriteWarp(const std::string& path, const Warp& warp);

@@ -4,6 +4,7 @@
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/fit_validation.h>
+#include <ceres_ed/registration/vertex_finish.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -90,7 +91,10 @@ class Fitter {
  private:
   void PlaceRigidly();
   FitOptions UnitOptions(const Surface& source, const Surface* target) const;
-  void Finish(const BuiltGraph& graph, const DeformationState& state);
+  void Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state);
+  // Moves `fitted` (the source as the nodes have it) onto the target and fills in the warp's
+  // finish.
+  void FinishEveryVertex(const UnitFit& fit, const DeformationState& state, PointCloud* fitted);
   void WarnAboutReflections(const DeformationState& state);
 
   const FitInput& input_;
@@ -134,16 +138,57 @@ FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) con
   return options;
 }
 
-void Fitter::Finish(const BuiltGraph& graph, const DeformationState& state) {
+void Fitter::FinishEveryVertex(const UnitFit& fit,
+                               const DeformationState& state,
+                               PointCloud* fitted) {
+  const bool is_whole =
+      result_.status == SolveStatus::kConverged || result_.status == SolveStatus::kMaxIterations;
+  if (!options_.finish || fit.target == nullptr || !is_whole) return;
+  const Timer timer;
+  const PointCloud moved = Transformed(unit_from_target_, *fitted);
+  std::vector<Eigen::Vector3d> normals;
+  WarpNormals(state, result_.skinning, fit.source->cloud().normals, options_.num_threads, &normals);
+  FinishInput input;
+  input.source = fit.source;
+  input.points = &moved.points;
+  input.normals = &normals;
+  input.target = fit.target;
+  input.noise = FinishNoise(*fit.source, *fit.target);
+  input.landmarks = fit.landmarks;
+  input.fixed = fit.fixed;
+  input.matching = fit.options->matching;
+  const FinishResult finish = FinishVertices(input, options_.finish_options);
+  if (finish.moved) {
+    // What the finish adds, in the source frame.
+    const Similarity source_from_unit = (unit_from_target_ * result_.rigid).Inverse();
+    result_.warp.finish.points = input_.source.points;
+    for (std::size_t p = 0; p < moved.size(); ++p) {
+      const Eigen::Vector3d displacement = finish.points[p] - moved.points[p];
+      result_.warp.finish.displacements.push_back(source_from_unit.scale *
+                                                  (source_from_unit.rotation * displacement));
+    }
+    *fitted = input_.source;
+    const Status applied = ApplyWarp(result_.warp, result_.skinning, fitted, options_.num_threads);
+    CHECK(applied.ok()) << applied.message();
+    result_.matches.rms_plane = finish.rms_plane;
+    result_.matches.rms_point = finish.rms_point;
+  }
+  result_.times.finish = timer.Seconds();
+}
+
+void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state) {
   result_.warp = WarpInSourceFrame(
       graph, state, input_.source.points, unit_from_target_ * result_.rigid, result_.rigid);
   result_.skinning = graph.skinning;
   PointCloud fitted = input_.source;
   const Status applied = ApplyWarp(result_.warp, result_.skinning, &fitted, options_.num_threads);
   CHECK(applied.ok()) << applied.message();
+  const auto finite = [](const Eigen::Vector3d& point) { return point.allFinite(); };
+  if (std::all_of(fitted.points.begin(), fitted.points.end(), finite)) {
+    FinishEveryVertex(fit, state, &fitted);
+  }
   result_.points = std::move(fitted.points);
   result_.normals = std::move(fitted.normals);
-  const auto finite = [](const Eigen::Vector3d& point) { return point.allFinite(); };
   if (!std::all_of(result_.points.begin(), result_.points.end(), finite)) {
     result_.status = SolveStatus::kFailed;
     result_.message = "the warped source isn't finite";
@@ -187,15 +232,16 @@ StatusOr<FitResult> Fitter::Run() {
   std::vector<PointConstraint> fixed;
   for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
   const FitOptions unit_options = UnitOptions(source, target.get());
-  CoarseToFine levels({&source,
+  const UnitFit fit = {&source,
                        target.get(),
                        &unit_options,
                        &registry_,
                        InUnitFrame(input_.landmarks, unit_from_target_),
                        InUnitFrame(fixed, unit_from_target_),
-                       &clock_});
+                       &clock_};
+  CoarseToFine levels(fit);
   if (Status status = levels.Run(&result_); !status.ok()) return status;
-  Finish(levels.graph(), levels.state());
+  Finish(fit, levels.graph(), levels.state());
   return std::move(result_);
 }
 

@@ -11,6 +11,7 @@
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/registration/matching.h>
 #include <ceres_ed/registration/rigid_registration.h>
+#include <ceres_ed/registration/vertex_finish.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/util/status.h>
 
@@ -106,6 +107,10 @@ struct FitOptions {
   RigidOptions rigid;
   // More energies, by name; means over their residuals as the built-in ones.
   std::vector<EnergySpec> extra_energies;
+  // Whether every point is moved onto the target in the end, beyond what the nodes can do. Not
+  // where the fit is stopped early, nor where the noise is larger than what is left.
+  bool finish = true;
+  FinishOptions finish_options;
   // The result doesn't depend on it, >= 1.
   int num_threads = 1;
   // Wall time of the whole fit, seconds, > 0.
@@ -127,6 +132,7 @@ struct FitTimes {
   double solve = 0.0;
   double level1 = 0.0;
   double level2 = 0.0;
+  double finish = 0.0;
 };
 
 // The outcome of a fit. It starts out failed.
@@ -143,7 +149,7 @@ struct FitResult {
   Similarity rigid;
   // 1 for nodes that an observation touched in the last round.
   std::vector<char> point_relevant;
-  // Of the last round, without units but for rms (target's unit).
+  // Of the last round, without units but for rms (target's unit; after the finish).
   Matches matches;
   EnergySummary initial_energy;
   EnergySummary final_energy;

@@ -63,7 +63,7 @@ Status CheckScale(const FitInput& input, const FitOptions& options) {
 
 bool FitOptions::IsValid(std::string* error) const {
   if (!strategy.IsValid(error) || !graph.IsValid(error) || !matching.IsValid(error) ||
-      !rigid.IsValid(error)) {
+      !rigid.IsValid(error) || !finish_options.IsValid(error)) {
     return false;
   }
   std::ostringstream message;

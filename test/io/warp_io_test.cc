@@ -74,6 +74,48 @@ TEST(WarpFile, ReadsBackToTheSameBits) {
   EXPECT_EQ(ReadBytes(directory / "again.json"), ReadBytes(directory / "w.json"));
 }
 
+Warp MakeFinishedWarp() {
+  Warp warp = MakeWarp();
+  for (int p = 0; p < 50; ++p) {
+    warp.finish.points.emplace_back(1.0 / (p + 3), -p / 7.0, 1e5 / (p + 1));
+    warp.finish.displacements.emplace_back(1e-9 / (p + 7), p == 4 ? -0.0 : p / 11.0, 5e-324);
+  }
+  return warp;
+}
+
+TEST(WarpFile, ReadsTheFinishBackToTheSameBits) {
+  const TemporaryDirectory directory;
+  const Warp warp = MakeFinishedWarp();
+  ASSERT_TRUE(WriteWarp(directory / "w.json", warp).ok());
+  const StatusOr<Warp> again = ReadWarp(directory / "w.json");
+  ASSERT_TRUE(again.ok()) << again.status().message();
+  ASSERT_EQ(again->finish.points.size(), 50u);
+  ASSERT_EQ(again->finish.displacements.size(), 50u);
+  for (int p = 0; p < 50; ++p) {
+    EXPECT_TRUE(SameBits(again->finish.points[p].data(), warp.finish.points[p].data(), 3)) << p;
+    EXPECT_TRUE(
+        SameBits(again->finish.displacements[p].data(), warp.finish.displacements[p].data(), 3))
+        << p;
+  }
+}
+
+TEST(WarpFile, WithoutAFinishHasNoWordOfIt) {
+  const TemporaryDirectory directory;
+  ASSERT_TRUE(WriteWarp(directory / "w.json", MakeWarp()).ok());
+  EXPECT_FALSE(json::parse(ReadBytes(directory / "w.json")).contains("finish"));
+  const StatusOr<Warp> again = ReadWarp(directory / "w.json");
+  ASSERT_TRUE(again.ok()) << again.status().message();
+  EXPECT_TRUE(again->finish.empty());
+}
+
+TEST(WarpFile, FinishThatIsNotFiniteIsNotWritten) {
+  const TemporaryDirectory directory;
+  Warp warp = MakeFinishedWarp();
+  warp.finish.displacements[7].x() = std::numeric_limits<double>::infinity();
+  EXPECT_THAT(WriteWarp(directory / "w.json", warp).message(),
+              HasSubstr("w.json: cannot write: point 7 of the finish is not finite"));
+}
+
 TEST(WarpFile, HoldsTheDocumentedFields) {
   const TemporaryDirectory directory;
   Warp warp;
@@ -113,6 +155,15 @@ std::string ErrorAfter(const std::function<void(json&)>& spoil) {
   WriteBytes(path, root.dump());
   const StatusOr<Warp> warp = ReadWarp(path);
   return warp.ok() ? "no error" : warp.status().message().substr(path.size() + 2);
+}
+
+TEST(WarpFile, NamesTheBadFieldOfTheFinish) {
+  EXPECT_EQ(ErrorAfter([](json& w) { w["finish"] = 1; }), "finish is number, expected an object");
+  EXPECT_EQ(ErrorAfter([](json& w) { w["finish"] = json::object(); }), "finish.points is missing");
+  EXPECT_EQ(ErrorAfter([](json& w) {
+              w["finish"]["points"] = json::array({{1, 2, 3}});
+            }),
+            "finish.points[0] has 3 values, expected 6 numbers");
 }
 
 TEST(WarpFile, NamesTheBadField) {
