@@ -85,15 +85,16 @@ double CoarseToFine::MissedShare(int level, const DeformationState& state) const
 Status CoarseToFine::Run(FitResult* result) {
   const FitOptions& options = *fit_.options;
   if (Status status = BuildGraphs(options.schedule.levels, result); !status.ok()) return status;
-  const std::vector<LevelPlan> plans = PlanLevels(options, static_cast<int>(graphs_.size()));
+  const std::vector<LevelPlan> plans = PlanLevels(fit_, static_cast<int>(graphs_.size()));
   const int last = static_cast<int>(graphs_.size()) - 1;
   // Without matches, or with a loss that has no width, there is one way to go.
-  std::vector<double> loss_widths = {options.coarse_loss_width};
+  std::vector<double> loss_widths = {options.narrow_loss_width};
   if (fit_.target != nullptr && options.loss != LossType::kSquared) {
     loss_widths.push_back(options.loss_width);
   }
   double best_missed = std::numeric_limits<double>::infinity();
   int start = -1;
+  double loss_width = options.loss_width;
   for (std::size_t i = 0; i < loss_widths.size() && last > 0; ++i) {
     DeformationState state;
     int level = 0;
@@ -108,6 +109,7 @@ Status CoarseToFine::Run(FitResult* result) {
     const double missed = fit_.target != nullptr ? MissedShare(reached, state) : 0.0;
     if (missed < best_missed) {
       best_missed = missed;
+      loss_width = loss_widths[i];
       start = reached;
       state_ = std::move(state);
     }
@@ -117,7 +119,9 @@ Status CoarseToFine::Run(FitResult* result) {
     }
   }
   graph_ = last;
-  return RunLevel(last, plans[last], start, &state_, result);
+  LevelPlan plan = plans[last];
+  plan.loss_width = loss_width;
+  return RunLevel(last, plan, start, &state_, result);
 }
 
 }  // namespace ceres_ed

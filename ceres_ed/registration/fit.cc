@@ -3,6 +3,7 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
+#include <ceres_ed/registration/denoise.h>
 #include <ceres_ed/registration/fit_validation.h>
 #include <ceres_ed/registration/vertex_finish.h>
 #include <ceres_ed/util/timer.h>
@@ -153,7 +154,7 @@ void Fitter::FinishEveryVertex(const UnitFit& fit,
   input.points = &moved.points;
   input.normals = &normals;
   input.target = fit.target;
-  input.noise = FinishNoise(*fit.source, *fit.target);
+  input.noise = fit.noise;
   input.landmarks = fit.landmarks;
   input.fixed = fit.fixed;
   input.matching = fit.options->matching;
@@ -223,9 +224,17 @@ StatusOr<FitResult> Fitter::Run() {
   unit_from_target_ = UnitFrame(placed);
   const Surface source(Transformed(unit_from_target_, placed), options_.num_threads);
   std::unique_ptr<Surface> target;
+  double noise = 0.0;
   if (!input_.target.empty()) {
     target = std::make_unique<Surface>(Transformed(unit_from_target_, input_.target),
                                        options_.num_threads);
+    noise = FinishNoise(source, *target);
+    result_.noise = noise / unit_from_target_.scale;
+    Denoised denoised = Denoise(*target, noise);
+    noise = denoised.noise;
+    if (denoised.length > 0.0) {
+      target = std::make_unique<Surface>(std::move(denoised.cloud), options_.num_threads);
+    }
   }
   result_.times.prepare = timer.Seconds();
 
@@ -238,6 +247,7 @@ StatusOr<FitResult> Fitter::Run() {
                        &registry_,
                        InUnitFrame(input_.landmarks, unit_from_target_),
                        InUnitFrame(fixed, unit_from_target_),
+                       noise,
                        &clock_};
   CoarseToFine levels(fit);
   if (Status status = levels.Run(&result_); !status.ok()) return status;

@@ -51,20 +51,24 @@ struct FitWeights {
   double landmark = 10.0;
   double fixed = 1e4;
   // Share of the data weight that goes to point-to-point instead of point-to-plane, in [0, 1].
-  double point_to_point_share = 0.1;
+  double point_to_point_share = 0.01;
 };
 
 // From stiff to soft, and from few nodes to many: E_rot and E_reg start at `initial_stiffness`
-// times their weights and come down to the weights themselves in equal ratios, spread over the
-// levels.
+// times their weights and come down in equal ratios, spread over the levels.
 struct FitSchedule {
   // Graphs that are fitted one after the other, each with twice the node spacing of the next, >= 1.
   int levels = 2;
-  // >= 1.
-  double initial_stiffness = 1000.0;
+  // > 0. Without a target the weights themselves hold from first to last.
+  double initial_stiffness = 100.0;
+  // What a clean target ends with, > 0 and at most the initial one.
+  double final_stiffness = 0.03;
+  // Noise adds to both ends: this times the square of its standard deviation (what smoothing leaves
+  // of it) in hundredths of the source's diagonal, >= 0.
+  double noise_stiffness = 1000.0;
   // Steps of stiffness on the coarser levels together, and on the last one, >= 1.
-  int coarse_steps = 7;
-  int fine_steps = 2;
+  int coarse_steps = 4;
+  int fine_steps = 3;
   // Rounds of matching and solving in each step, >= 1; fewer where the surface stands still.
   int max_rounds = 8;
   // Mean motion of the source in a round, as a fraction of its diagonal, that counts as standing
@@ -94,10 +98,10 @@ struct FitOptions {
   // Type of the data loss; its width follows the spread of the residuals, a multiple of their
   // robust standard deviation, > 0. While there are few nodes both widths are tried: with the
   // narrow one, limbs that are far from their place wait until what carries them is near; the wide
-  // one fetches them at once. The last level has the wide one.
+  // one fetches them at once. The last level has the one that did better.
   LossType loss = LossType::kWelsch;
-  double coarse_loss_width = 3.0;
-  double loss_width = 10.0;
+  double narrow_loss_width = 5.0;
+  double loss_width = 20.0;
   // max_distance is in the target's unit.
   MatchingOptions matching;
   // Points of each surface that are matched on the last level, >= 10; a quarter of them, but no
@@ -157,6 +161,8 @@ struct FitResult {
   int solver_iterations = 0;
   // Largest distance of a fixed point from its place, target's unit; 0 where there are none.
   double max_fixed_error = 0.0;
+  // Standard deviation of the target's noise across its surface, in its unit.
+  double noise = 0.0;
   FitTimes times;
   std::vector<std::string> warnings;
 

@@ -81,8 +81,12 @@ bool FitOptions::IsValid(std::string* error) const {
   if (!message.str().empty()) {
   } else if (!(weights.point_to_point_share >= 0.0 && weights.point_to_point_share <= 1.0)) {
     bad("point_to_point_share", weights.point_to_point_share, "in [0, 1]");
-  } else if (!(schedule.initial_stiffness >= 1.0)) {
-    bad("initial_stiffness", schedule.initial_stiffness, ">= 1");
+  } else if (!(schedule.final_stiffness > 0.0)) {
+    bad("final_stiffness", schedule.final_stiffness, "> 0");
+  } else if (!(schedule.initial_stiffness >= schedule.final_stiffness)) {
+    bad("initial_stiffness", schedule.initial_stiffness, "at least final_stiffness");
+  } else if (!(schedule.noise_stiffness >= 0.0)) {
+    bad("noise_stiffness", schedule.noise_stiffness, ">= 0");
   } else if (schedule.levels < 1 || schedule.levels > kMaxLevels) {
     bad("levels", schedule.levels, "in [1, 5]");
   } else if (std::min({schedule.coarse_steps,
@@ -92,8 +96,8 @@ bool FitOptions::IsValid(std::string* error) const {
     message << "coarse_steps, fine_steps, max_rounds and solver_iterations are expected >= 1";
   } else if (!(schedule.tolerance > 0.0)) {
     bad("tolerance", schedule.tolerance, "> 0");
-  } else if (!(std::min(loss_width, coarse_loss_width) > 0.0)) {
-    bad("loss_width or coarse_loss_width", std::min(loss_width, coarse_loss_width), "> 0");
+  } else if (!(std::min(loss_width, narrow_loss_width) > 0.0)) {
+    bad("loss_width or narrow_loss_width", std::min(loss_width, narrow_loss_width), "> 0");
   } else if (max_samples < 10) {
     bad("max_samples", max_samples, ">= 10");
   } else if (num_threads < 1) {

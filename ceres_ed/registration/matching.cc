@@ -40,6 +40,24 @@ class NormalTest {
   bool oriented_;
 };
 
+// The mean of two normals, for the symmetric point-to-plane distance (Rusinkiewicz 2019): exact
+// along a second order curve through both points, so that surfaces may slide along each other.
+Eigen::Vector3d SymmetricNormal(const Eigen::Vector3d& source, const Eigen::Vector3d& target) {
+  const Eigen::Vector3d sum = target + (source.dot(target) < 0.0 ? -source : source);
+  const double norm = sum.norm();
+  return norm > 0.0 ? Eigen::Vector3d(sum / norm) : target;
+}
+
+// The part of `gap` along the surface, of at most `radius`: a target point between two source
+// points is no farther from the surface than if it faced one of them.
+Eigen::Vector3d OffsetWithinDisc(const Eigen::Vector3d& gap,
+                                 const Eigen::Vector3d& normal,
+                                 double radius) {
+  const Eigen::Vector3d along = gap - normal * normal.dot(gap);
+  const double length = along.norm();
+  return length > radius ? Eigen::Vector3d(along * (radius / length)) : along;
+}
+
 void MatchForward(const MovedSource& source,
                   const std::vector<int>& samples,
                   const Surface& target,
@@ -52,12 +70,15 @@ void MatchForward(const MovedSource& source,
       const SurfaceHit hit = target.index().Closest((*source.points)[point], options.max_distance);
       if (!hit.found()) continue;
       Candidate& candidate = candidates[i];
-      const Eigen::Vector3d normal = target.NormalAt(hit);
-      candidate.match = {
-          point, hit.position, normal, source.rest->relative_areas()[point] / samples.size()};
+      const Eigen::Vector3d& normal = (*source.normals)[point];
+      const Eigen::Vector3d target_normal = target.NormalAt(hit);
+      candidate.match = {point,
+                         hit.position,
+                         SymmetricNormal(normal, target_normal),
+                         source.rest->relative_areas()[point] / samples.size()};
       candidate.distance = std::sqrt(hit.squared_distance);
       candidate.on_border = hit.on_border;
-      candidate.normals_agree = normals.Agree((*source.normals)[point], normal);
+      candidate.normals_agree = normals.Agree(normal, target_normal);
     }
   });
 }
@@ -73,15 +94,21 @@ void MatchBackward(const MovedSource& source,
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const Eigen::Vector3d& position = target.cloud().points[samples[i]];
-      const Eigen::Vector3d& normal = target.cloud().normals[samples[i]];
+      const Eigen::Vector3d& target_normal = target.cloud().normals[samples[i]];
       const Neighbor nearest = tree.NearestWithin(position, options.max_distance);
       if (!nearest.found()) continue;
+      const Eigen::Vector3d& normal = (*source.normals)[nearest.index];
+      const Eigen::Vector3d gap = position - (*source.points)[nearest.index];
+      const Eigen::Vector3d aside =
+          OffsetWithinDisc(gap, normal, source.rest->radius(nearest.index));
       Candidate& candidate = candidates[i];
-      candidate.match = {
-          nearest.index, position, normal, target.relative_areas()[samples[i]] / samples.size()};
-      candidate.distance = std::sqrt(nearest.squared_distance);
+      candidate.match = {nearest.index,
+                         position - aside,
+                         SymmetricNormal(normal, target_normal),
+                         target.relative_areas()[samples[i]] / samples.size()};
+      candidate.distance = (gap - aside).norm();
       candidate.on_border = source.rest->topology().is_border[nearest.index] != 0;
-      candidate.normals_agree = normals.Agree((*source.normals)[nearest.index], normal);
+      candidate.normals_agree = normals.Agree(normal, target_normal);
     }
   });
 }
@@ -134,10 +161,8 @@ Matches MatchBothWays(const MovedSource& source,
                       const Surface& target,
                       const std::vector<int>& target_samples,
                       const MatchingOptions& options) {
-  std::vector<Candidate> candidates(source_samples.size() + target_samples.size());
-  MatchForward(source, source_samples, target, options, candidates.data());
-  MatchBackward(source, target, target_samples, options, candidates.data() + source_samples.size());
-
+  const std::vector<Candidate> candidates =
+      FindCandidates(source, source_samples, target, target_samples, options);
   Matches matches;
   matches.robust_distance = kMadToSigma * MedianDistance(candidates);
   const double limit =

@@ -17,10 +17,10 @@ struct MatchingOptions {
   // No pair farther apart than this, > 0, in the unit of the surfaces.
   double max_distance = std::numeric_limits<double>::infinity();
   // No pair whose normals differ by more, in (0, 180] degrees.
-  double max_angle_deg = 60.0;
+  double max_angle_deg = 75.0;
   // No pair farther apart than this multiple of the robust standard deviation of all distances
   // (1.4826 times their median), > 0.
-  double max_deviations = 20.0;
+  double max_deviations = 40.0;
   // Pairs this near are kept whatever the deviations say, >= 0: the resolution of the surfaces.
   double resolution = 0.0;
   // The result doesn't depend on it, >= 1.
@@ -51,7 +51,9 @@ struct Matches {
 };
 
 // Pairs each of `source_samples` with its closest point on the target, and each of `target_samples`
-// with the source point that is closest to it. A pair is rejected by distance, by the angle between
+// with the source point that is closest to it, whose target is moved along the surface by what lies
+// within the point's own disc. Normals of pairs are the mean of both surfaces' (symmetric
+// point-to-plane). A pair is rejected by distance, by the angle between
 // the normals, and where the closest point lies on the border of its surface (the other side goes
 // on where this one ends). Weights are relative areas; those of each direction sum to at most 1.
 Matches MatchBothWays(const MovedSource& source,

@@ -8,6 +8,8 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kPatientIterations = 10;
+// Noise counts in hundredths of the source's diagonal.
+constexpr double kPerLength = 100.0;
 
 class NonrigidLoop {
  public:
@@ -189,24 +191,29 @@ void NonrigidLoop::Run() {
 
 }  // namespace
 
-std::vector<LevelPlan> PlanLevels(const FitOptions& options, int levels) {
+std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
+  const FitOptions& options = *fit.options;
   const FitSchedule& schedule = options.schedule;
+  const double of_noise = schedule.noise_stiffness * std::pow(kPerLength * fit.noise, 2);
+  const double initial_stiffness =
+      fit.target != nullptr ? schedule.initial_stiffness + of_noise : 1.0;
+  const double final_stiffness = fit.target != nullptr ? schedule.final_stiffness + of_noise : 1.0;
   const int coarse_levels = levels - 1;
   // A level starts with the stiffness that the one before ended with.
   const int coarse_steps =
       coarse_levels > 0 ? std::max(1, schedule.coarse_steps / coarse_levels) : 0;
   const int ratios =
       std::max(1, coarse_levels * std::max(0, coarse_steps - 1) + schedule.fine_steps - 1);
-  const double ratio = std::pow(schedule.initial_stiffness, -1.0 / ratios);
+  const double ratio = std::pow(final_stiffness / initial_stiffness, 1.0 / ratios);
   std::vector<LevelPlan> plans(levels);
-  double stiffness = schedule.initial_stiffness;
+  double stiffness = initial_stiffness;
   for (int level = 0; level < levels; ++level) {
     LevelPlan& plan = plans[level];
     const bool last = level == coarse_levels;
     plan.steps = last ? schedule.fine_steps : coarse_steps;
-    plan.loss_width = last ? options.loss_width : options.coarse_loss_width;
+    plan.loss_width = last ? options.loss_width : options.narrow_loss_width;
     plan.first_stiffness = stiffness;
-    stiffness = last ? 1.0 : stiffness * std::pow(ratio, plan.steps - 1);
+    stiffness = last ? final_stiffness : stiffness * std::pow(ratio, plan.steps - 1);
     plan.last_stiffness = stiffness;
     plan.progress_begin = static_cast<double>(level) / levels;
     plan.progress_end = static_cast<double>(level + 1) / levels;

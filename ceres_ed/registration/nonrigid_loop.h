@@ -28,8 +28,8 @@ struct LevelPlan {
 // Fewer points of a surface than these are not matched unless it has no more.
 inline constexpr int kMinCoarseSamples = 1000;
 
-// The plans of `levels` >= 1 levels, coarse to fine.
-std::vector<LevelPlan> PlanLevels(const FitOptions& options, int levels);
+// The plans of `levels` >= 1 levels of `fit`, coarse to fine.
+std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels);
 
 // Moves `state` over `graph` so that the warped source follows the target. `problem` has the
 // energies of the fit. Fills in status, message, point_relevant, matches, energies, iterations and

@@ -3,6 +3,7 @@
 #include <ceres_ed/geometry/normals.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include <Eigen/Geometry>
@@ -34,6 +35,17 @@ std::vector<double> RelativeAreas(const PointCloud& cloud) {
   return areas;
 }
 
+std::vector<double> Radii(const PointCloud& cloud) {
+  std::vector<double> areas(cloud.size(), 0.0);
+  for (const std::array<int, 3>& t : cloud.triangles) {
+    const Eigen::Vector3d& a = cloud.points[t[0]];
+    const double area = (cloud.points[t[1]] - a).cross(cloud.points[t[2]] - a).norm() / 6.0;
+    for (const int corner : t) areas[corner] += area;
+  }
+  for (double& area : areas) area = std::sqrt(area / M_PI);
+  return areas;
+}
+
 }  // namespace
 
 Surface::Surface(PointCloud cloud, int num_threads)
@@ -41,7 +53,8 @@ Surface::Surface(PointCloud cloud, int num_threads)
       topology_(BuildTopology(cloud_)),
       index_(cloud_, topology_),
       tree_(cloud_.points),
-      relative_areas_(RelativeAreas(cloud_)) {}
+      relative_areas_(RelativeAreas(cloud_)),
+      radii_(Radii(cloud_)) {}
 
 Eigen::Vector3d Surface::NormalAt(const SurfaceHit& hit) const {
   if (hit.triangle < 0) return cloud_.normals[hit.nearest_vertex];

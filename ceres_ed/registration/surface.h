@@ -31,6 +31,9 @@ class Surface {
   // The area that each point stands for, relative to the mean of all points: a third of its
   // triangles. 1 for bare points; kept in [0.1, 10].
   const std::vector<double>& relative_areas() const { return relative_areas_; }
+  // The radius of the disc that has the area of a point's share: how far from it its nearest
+  // neighbours begin. 0 for bare points.
+  double radius(int point) const { return radii_[point]; }
   // The unit normal at a hit: corner normals blended, zero where none is known.
   Eigen::Vector3d NormalAt(const SurfaceHit& hit) const;
 
@@ -40,6 +43,7 @@ class Surface {
   SurfaceIndex index_;
   KdTree tree_;
   std::vector<double> relative_areas_;
+  std::vector<double> radii_;
 };
 
 // About `count` of the surface's points, evenly over the order in space; all when there are fewer.

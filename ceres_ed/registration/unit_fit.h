@@ -20,6 +20,8 @@ struct UnitFit {
   const EnergyRegistry* registry = nullptr;
   std::vector<Correspondence> landmarks;
   std::vector<Correspondence> fixed;
+  // Standard deviation of the noise of `target`.
+  double noise = 0.0;
   // Started with the fit.
   const Timer* clock = nullptr;
 };
