@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/coarse_to_fine.h"
 
 #include <ceres_ed/registration/fit_problem.h>
+#include <ceres_ed/registration/moving_samples.h>
 
 #include <algorithm>
 #include <cmath>
@@ -68,14 +69,9 @@ Status CoarseToFine::RunLevel(
 }
 
 double CoarseToFine::MissedShare(int level, const DeformationState& state) const {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3d> normals;
-  const BuiltGraph& graph = graphs_[level];
-  const int threads = fit_.options->num_threads;
-  WarpPoints(graph.graph, state, graph.skinning, fit_.source->cloud().points, threads, &points);
-  WarpNormals(state, graph.skinning, fit_.source->cloud().normals, threads, &normals);
-  return UnmatchedShare({fit_.source, &points, &normals},
-                        SamplePoints(*fit_.source, kMinCoarseSamples),
+  MovingSamples moving(*fit_.source, graphs_[level], kMinCoarseSamples);
+  moving.Move(state, fit_.options->num_threads);
+  return UnmatchedShare(moving.Moved(),
                         *fit_.target,
                         SamplePoints(*fit_.target, kMinCoarseSamples),
                         kMissedWidth,

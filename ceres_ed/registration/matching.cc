@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <glog/logging.h>
+
 namespace ceres_ed {
 namespace {
 
@@ -16,6 +18,8 @@ constexpr double kMadToSigma = 1.4826;
 // A pair before it is believed.
 struct Candidate {
   Correspondence match;
+  // From the target to the source.
+  Eigen::Vector3d gap = Eigen::Vector3d::Zero();
   double distance = std::numeric_limits<double>::infinity();
   bool on_border = false;
   bool normals_agree = false;
@@ -48,34 +52,31 @@ Eigen::Vector3d SymmetricNormal(const Eigen::Vector3d& source, const Eigen::Vect
   return norm > 0.0 ? Eigen::Vector3d(sum / norm) : target;
 }
 
-// The part of `gap` along the surface, of at most `radius`: a target point between two source
-// points is no farther from the surface than if it faced one of them.
-Eigen::Vector3d OffsetWithinDisc(const Eigen::Vector3d& gap,
-                                 const Eigen::Vector3d& normal,
-                                 double radius) {
-  const Eigen::Vector3d along = gap - normal * normal.dot(gap);
-  const double length = along.norm();
-  return length > radius ? Eigen::Vector3d(along * (radius / length)) : along;
+// How far a target point at `gap` is from the disc of `radius` around a source point.
+double DistanceFromDisc(const Eigen::Vector3d& gap, const Eigen::Vector3d& normal, double radius) {
+  const double across = normal.dot(gap);
+  const double along = std::sqrt(std::max(0.0, gap.squaredNorm() - across * across));
+  return std::hypot(across, std::max(0.0, along - radius));
 }
 
 void MatchForward(const MovedSource& source,
-                  const std::vector<int>& samples,
                   const Surface& target,
                   const MatchingOptions& options,
                   Candidate* candidates) {
+  const std::vector<int>& samples = *source.samples;
   const NormalTest normals(*source.rest, target, options);
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const int point = samples[i];
-      const SurfaceHit hit = target.index().Closest((*source.points)[point], options.max_distance);
+      const SurfaceHit hit = target.index().Closest((*source.points)[i], options.max_distance);
       if (!hit.found()) continue;
       Candidate& candidate = candidates[i];
-      const Eigen::Vector3d& normal = (*source.normals)[point];
+      const Eigen::Vector3d& normal = (*source.normals)[i];
       const Eigen::Vector3d target_normal = target.NormalAt(hit);
-      candidate.match = {point,
+      candidate.match = {samples[i],
                          hit.position,
                          SymmetricNormal(normal, target_normal),
-                         source.rest->relative_areas()[point] / samples.size()};
+                         source.rest->relative_areas()[samples[i]] / samples.size()};
+      candidate.gap = (*source.points)[i] - hit.position;
       candidate.distance = std::sqrt(hit.squared_distance);
       candidate.on_border = hit.on_border;
       candidate.normals_agree = normals.Agree(normal, target_normal);
@@ -85,29 +86,35 @@ void MatchForward(const MovedSource& source,
 
 void MatchBackward(const MovedSource& source,
                    const Surface& target,
-                   const std::vector<int>& samples,
+                   const std::vector<int>& target_samples,
                    const MatchingOptions& options,
                    Candidate* candidates) {
-  if (samples.empty()) return;
+  const std::vector<int>& samples = *source.samples;
+  if (samples.empty() || target_samples.empty()) return;
   const NormalTest normals(*source.rest, target, options);
   const KdTree tree(*source.points);
-  ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
+  // Samples stand for the points between them, too.
+  const double spread = std::sqrt(static_cast<double>(source.rest->cloud().size()) /
+                                  static_cast<double>(samples.size()));
+  const int count = static_cast<int>(target_samples.size());
+  ParallelFor(options.num_threads, count, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const Eigen::Vector3d& position = target.cloud().points[samples[i]];
-      const Eigen::Vector3d& target_normal = target.cloud().normals[samples[i]];
+      const int point = target_samples[i];
+      const Eigen::Vector3d& position = target.cloud().points[point];
+      const Eigen::Vector3d& target_normal = target.cloud().normals[point];
       const Neighbor nearest = tree.NearestWithin(position, options.max_distance);
       if (!nearest.found()) continue;
+      const int sample = samples[nearest.index];
       const Eigen::Vector3d& normal = (*source.normals)[nearest.index];
-      const Eigen::Vector3d gap = position - (*source.points)[nearest.index];
-      const Eigen::Vector3d aside =
-          OffsetWithinDisc(gap, normal, source.rest->radius(nearest.index));
       Candidate& candidate = candidates[i];
-      candidate.match = {nearest.index,
-                         position - aside,
+      candidate.match = {sample,
+                         position,
                          SymmetricNormal(normal, target_normal),
-                         target.relative_areas()[samples[i]] / samples.size()};
-      candidate.distance = (gap - aside).norm();
-      candidate.on_border = source.rest->topology().is_border[nearest.index] != 0;
+                         target.relative_areas()[point] / count};
+      candidate.gap = (*source.points)[nearest.index] - position;
+      candidate.distance = DistanceFromDisc(
+          candidate.gap, candidate.match.normal, spread * source.rest->radius(sample));
+      candidate.on_border = source.rest->topology().is_border[sample] != 0;
       candidate.normals_agree = normals.Agree(normal, target_normal);
     }
   });
@@ -127,13 +134,15 @@ double MedianDistance(const std::vector<Candidate>& candidates) {
 
 // The candidates of the source's samples, then those of the target's.
 std::vector<Candidate> FindCandidates(const MovedSource& source,
-                                      const std::vector<int>& source_samples,
                                       const Surface& target,
                                       const std::vector<int>& target_samples,
                                       const MatchingOptions& options) {
-  std::vector<Candidate> candidates(source_samples.size() + target_samples.size());
-  MatchForward(source, source_samples, target, options, candidates.data());
-  MatchBackward(source, target, target_samples, options, candidates.data() + source_samples.size());
+  CHECK_EQ(source.points->size(), source.samples->size());
+  CHECK_EQ(source.normals->size(), source.samples->size());
+  std::vector<Candidate> candidates(source.samples->size() + target_samples.size());
+  MatchForward(source, target, options, candidates.data());
+  MatchBackward(
+      source, target, target_samples, options, candidates.data() + source.samples->size());
   return candidates;
 }
 
@@ -157,12 +166,11 @@ bool MatchingOptions::IsValid(std::string* error) const {
 }
 
 Matches MatchBothWays(const MovedSource& source,
-                      const std::vector<int>& source_samples,
                       const Surface& target,
                       const std::vector<int>& target_samples,
                       const MatchingOptions& options) {
   const std::vector<Candidate> candidates =
-      FindCandidates(source, source_samples, target, target_samples, options);
+      FindCandidates(source, target, target_samples, options);
   Matches matches;
   matches.robust_distance = kMadToSigma * MedianDistance(candidates);
   const double limit =
@@ -174,9 +182,8 @@ Matches MatchBothWays(const MovedSource& source,
     ++matches.candidates;
     if (!candidate.IsPlausible() || candidate.distance > limit) continue;
     matches.correspondences.push_back(candidate.match);
-    const Eigen::Vector3d gap = (*source.points)[candidate.match.point] - candidate.match.target;
-    sum_plane += std::pow(gap.dot(candidate.match.normal), 2);
-    sum_point += gap.squaredNorm();
+    sum_plane += std::pow(candidate.gap.dot(candidate.match.normal), 2);
+    sum_point += candidate.gap.squaredNorm();
   }
   matches.inliers = static_cast<int>(matches.correspondences.size());
   if (matches.inliers > 0) {
@@ -187,13 +194,12 @@ Matches MatchBothWays(const MovedSource& source,
 }
 
 double UnmatchedShare(const MovedSource& source,
-                      const std::vector<int>& source_samples,
                       const Surface& target,
                       const std::vector<int>& target_samples,
                       double width,
                       const MatchingOptions& options) {
   const std::vector<Candidate> candidates =
-      FindCandidates(source, source_samples, target, target_samples, options);
+      FindCandidates(source, target, target_samples, options);
   double sum = 0.0;
   for (const Candidate& candidate : candidates) {
     const double squared = candidate.distance * candidate.distance;

@@ -29,10 +29,12 @@ struct MatchingOptions {
   bool IsValid(std::string* error) const;
 };
 
-// A moving source: the points of a surface as they are now.
+// A moving source: some points of a surface as they are now.
 struct MovedSource {
   const Surface* rest = nullptr;
-  // One a point of `rest`.
+  // Indices into `rest`.
+  const std::vector<int>* samples = nullptr;
+  // One a sample.
   const std::vector<Eigen::Vector3d>* points = nullptr;
   const std::vector<Eigen::Vector3d>* normals = nullptr;
 };
@@ -50,14 +52,14 @@ struct Matches {
   double robust_distance = 0.0;
 };
 
-// Pairs each of `source_samples` with its closest point on the target, and each of `target_samples`
-// with the source point that is closest to it, whose target is moved along the surface by what lies
-// within the point's own disc. Normals of pairs are the mean of both surfaces' (symmetric
-// point-to-plane). A pair is rejected by distance, by the angle between
-// the normals, and where the closest point lies on the border of its surface (the other side goes
-// on where this one ends). Weights are relative areas; those of each direction sum to at most 1.
+// Pairs each sample of the source with its closest point on the target, and each of
+// `target_samples` with the sample of the source that is closest to it. Normals of pairs are the
+// mean of both surfaces' (symmetric point-to-plane), so that points on one arc are at no distance
+// along it; what lies aside within the disc that a sample stands for doesn't count as distance. A
+// pair is rejected by distance, by the angle between the normals, and where the closest point lies
+// on the border of its surface (the other side goes on where this one ends). Weights are relative
+// areas; those of each direction sum to at most 1.
 Matches MatchBothWays(const MovedSource& source,
-                      const std::vector<int>& source_samples,
                       const Surface& target,
                       const std::vector<int>& target_samples,
                       const MatchingOptions& options);
@@ -65,7 +67,6 @@ Matches MatchBothWays(const MovedSource& source,
 // How much of the two surfaces is left unmatched, in [0, 1]: the mean over all samples of
 // d^2 / (d^2 + width^2), with 1 where there is no closest point or the normals disagree.
 double UnmatchedShare(const MovedSource& source,
-                      const std::vector<int>& source_samples,
                       const Surface& target,
                       const std::vector<int>& target_samples,
                       double width,

@@ -1,5 +1,7 @@
 #include "ceres_ed/registration/nonrigid_loop.h"
 
+#include <ceres_ed/registration/moving_samples.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -28,7 +30,8 @@ class NonrigidLoop {
         problem_(problem),
         state_(state),
         result_(result),
-        strategy_(MakeStrategy(options_.strategy)) {}
+        strategy_(MakeStrategy(options_.strategy)),
+        moving_(source_, graph, plan.samples) {}
 
   void Run();
 
@@ -39,7 +42,6 @@ class NonrigidLoop {
   void Match();
   SolveSummary Solve(int max_iterations);
   void MeasureInitialEnergy();
-  double MeanMotion(const std::vector<Eigen::Vector3d>& before) const;
   bool Stopped();
   void Report(double fraction) const;
 
@@ -53,10 +55,8 @@ class NonrigidLoop {
   DeformationState* state_;
   FitResult* result_;
   std::unique_ptr<Strategy> strategy_;
-  std::vector<int> source_samples_;
+  MovingSamples moving_;
   std::vector<int> target_samples_;
-  std::vector<Eigen::Vector3d> points_;
-  std::vector<Eigen::Vector3d> normals_;
   double energy_ = 0.0;
   double stiffness_ = 1.0;
   bool initial_energy_known_ = false;
@@ -83,20 +83,10 @@ void NonrigidLoop::Report(double fraction) const {
       {"fit", fraction, result_->matches.inliers, result_->matches.rms_plane, energy_});
 }
 
-double NonrigidLoop::MeanMotion(const std::vector<Eigen::Vector3d>& before) const {
-  double sum = 0.0;
-  for (const int point : source_samples_) sum += (points_[point] - before[point]).norm();
-  return source_samples_.empty() ? 0.0 : sum / static_cast<double>(source_samples_.size());
-}
-
 void NonrigidLoop::Match() {
   const Timer timer;
-  WarpNormals(*state_, graph_.skinning, source_.cloud().normals, options_.num_threads, &normals_);
-  result_->matches = MatchBothWays({&source_, &points_, &normals_},
-                                   source_samples_,
-                                   *target_,
-                                   target_samples_,
-                                   options_.matching);
+  result_->matches =
+      MatchBothWays(moving_.Moved(), *target_, target_samples_, options_.matching);
   const double width =
       plan_.loss_width * std::max(result_->matches.robust_distance, options_.matching.resolution);
   problem_->SetCorrespondences(result_->matches.correspondences, std::max(width, 1e-12));
@@ -145,28 +135,15 @@ NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
     result_->message = summary.message;
     return RoundOutcome::kStopped;
   }
-  const std::vector<Eigen::Vector3d> before = points_;
-  WarpPoints(graph_.graph,
-             *state_,
-             graph_.skinning,
-             source_.cloud().points,
-             options_.num_threads,
-             &points_);
+  const double motion = moving_.Move(*state_, options_.num_threads);
   if (Stopped()) return RoundOutcome::kStopped;
-  return MeanMotion(before) < options_.schedule.tolerance ? RoundOutcome::kStill
-                                                          : RoundOutcome::kMoving;
+  return motion < options_.schedule.tolerance ? RoundOutcome::kStill : RoundOutcome::kMoving;
 }
 
 void NonrigidLoop::Run() {
   const FitSchedule& schedule = options_.schedule;
-  source_samples_ = SamplePoints(source_, plan_.samples);
   if (target_ != nullptr) target_samples_ = SamplePoints(*target_, plan_.samples);
-  WarpPoints(graph_.graph,
-             *state_,
-             graph_.skinning,
-             source_.cloud().points,
-             options_.num_threads,
-             &points_);
+  moving_.Move(*state_, options_.num_threads);
   RoundOutcome outcome = RoundOutcome::kMoving;
   for (int step = 0; step < plan_.steps && outcome != RoundOutcome::kStopped; ++step) {
     const double part = plan_.steps > 1 ? double(step) / (plan_.steps - 1) : 1.0;
