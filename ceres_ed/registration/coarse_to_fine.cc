@@ -84,19 +84,24 @@ Status CoarseToFine::Run(FitResult* result) {
   const std::vector<LevelPlan> plans = PlanLevels(fit_, static_cast<int>(graphs_.size()));
   const int last = static_cast<int>(graphs_.size()) - 1;
   // Without matches, or with a loss that has no width, there is one way to go.
-  std::vector<double> loss_widths = {options.narrow_loss_width};
-  if (fit_.target != nullptr && options.loss != LossType::kSquared) {
-    loss_widths.push_back(options.loss_width);
-  }
+  struct Way {
+    double loss_width;
+    double max_angle_deg;
+  };
+  const Way bold = {options.loss_width, options.matching.max_angle_deg};
+  const double careful_angle = std::min(options.careful_angle_deg, bold.max_angle_deg);
+  std::vector<Way> ways = {{options.careful_loss_width, careful_angle}};
+  if (fit_.target != nullptr && options.loss != LossType::kSquared) ways.push_back(bold);
   double best_missed = std::numeric_limits<double>::infinity();
   int start = -1;
   double loss_width = options.loss_width;
-  for (std::size_t i = 0; i < loss_widths.size() && last > 0; ++i) {
+  for (std::size_t i = 0; i < ways.size() && last > 0; ++i) {
     DeformationState state;
     int level = 0;
     for (; level < last; ++level) {
       LevelPlan plan = plans[level];
-      plan.loss_width = loss_widths[i];
+      plan.loss_width = ways[i].loss_width;
+      plan.max_angle_deg = ways[i].max_angle_deg;
       Status status = RunLevel(level, plan, level - 1, &state, result);
       if (!status.ok()) return status;
       if (EndedEarly(*result)) break;
@@ -105,7 +110,7 @@ Status CoarseToFine::Run(FitResult* result) {
     const double missed = fit_.target != nullptr ? MissedShare(reached, state) : 0.0;
     if (missed < best_missed) {
       best_missed = missed;
-      loss_width = loss_widths[i];
+      loss_width = ways[i].loss_width;
       start = reached;
       state_ = std::move(state);
     }

@@ -70,7 +70,7 @@ struct FitSchedule {
   int coarse_steps = 4;
   int fine_steps = 3;
   // Rounds of matching and solving in each step, >= 1; fewer where the surface stands still.
-  int max_rounds = 8;
+  int max_rounds = 6;
   // Mean motion of the source in a round, as a fraction of its diagonal, that counts as standing
   // still, > 0.
   double tolerance = 2e-4;
@@ -96,17 +96,19 @@ struct FitOptions {
   FitWeights weights;
   FitSchedule schedule;
   // Type of the data loss; its width follows the spread of the residuals, a multiple of their
-  // robust standard deviation, > 0. While there are few nodes both widths are tried: with the
-  // narrow one, limbs that are far from their place wait until what carries them is near; the wide
-  // one fetches them at once. The last level has the one that did better.
+  // robust standard deviation, > 0.
   LossType loss = LossType::kWelsch;
-  double narrow_loss_width = 5.0;
   double loss_width = 20.0;
+  // While there are few nodes a careful way is tried, too, with a narrower loss and normals that
+  // agree better (degrees): limbs that are far from their place wait until what carries them is
+  // near, where the bold way fetches them at once. What leaves less unmatched goes on.
+  double careful_loss_width = 5.0;
+  double careful_angle_deg = 50.0;
   // max_distance is in the target's unit.
   MatchingOptions matching;
   // Points of each surface that are matched on the last level, >= 10; a quarter of them, but no
   // fewer than 1000, on the level before.
-  int max_samples = 4000;
+  int max_samples = 6000;
   bool rigid_first = true;
   RigidOptions rigid;
   // More energies, by name; means over their residuals as the built-in ones.

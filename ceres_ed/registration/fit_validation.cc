@@ -96,8 +96,8 @@ bool FitOptions::IsValid(std::string* error) const {
     message << "coarse_steps, fine_steps, max_rounds and solver_iterations are expected >= 1";
   } else if (!(schedule.tolerance > 0.0)) {
     bad("tolerance", schedule.tolerance, "> 0");
-  } else if (!(std::min(loss_width, narrow_loss_width) > 0.0)) {
-    bad("loss_width or narrow_loss_width", std::min(loss_width, narrow_loss_width), "> 0");
+  } else if (!(std::min(loss_width, careful_loss_width) > 0.0)) {
+    bad("loss_width or careful_loss_width", std::min(loss_width, careful_loss_width), "> 0");
   } else if (max_samples < 10) {
     bad("max_samples", max_samples, ">= 10");
   } else if (num_threads < 1) {

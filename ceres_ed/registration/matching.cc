@@ -59,16 +59,28 @@ double DistanceFromDisc(const Eigen::Vector3d& gap, const Eigen::Vector3d& norma
   return std::hypot(across, std::max(0.0, along - radius));
 }
 
+// No farther than to a point that is known, with room for rounding; NaN knows none.
+double SearchRadius(double max_distance, double known_distance) {
+  constexpr double kRoom = 1.0 + 1e-9;
+  return known_distance * kRoom < max_distance ? known_distance * kRoom : max_distance;
+}
+
 void MatchForward(const MovedSource& source,
                   const Surface& target,
                   const MatchingOptions& options,
+                  MatchMemory* memory,
                   Candidate* candidates) {
   const std::vector<int>& samples = *source.samples;
+  memory->on_target.resize(samples.size(),
+                           Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
   const NormalTest normals(*source.rest, target, options);
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
-      const SurfaceHit hit = target.index().Closest((*source.points)[i], options.max_distance);
+      const Eigen::Vector3d& point = (*source.points)[i];
+      const SurfaceHit hit = target.index().Closest(
+          point, SearchRadius(options.max_distance, (point - memory->on_target[i]).norm()));
       if (!hit.found()) continue;
+      memory->on_target[i] = hit.position;
       Candidate& candidate = candidates[i];
       const Eigen::Vector3d& normal = (*source.normals)[i];
       const Eigen::Vector3d target_normal = target.NormalAt(hit);
@@ -76,7 +88,7 @@ void MatchForward(const MovedSource& source,
                          hit.position,
                          SymmetricNormal(normal, target_normal),
                          source.rest->relative_areas()[samples[i]] / samples.size()};
-      candidate.gap = (*source.points)[i] - hit.position;
+      candidate.gap = point - hit.position;
       candidate.distance = std::sqrt(hit.squared_distance);
       candidate.on_border = hit.on_border;
       candidate.normals_agree = normals.Agree(normal, target_normal);
@@ -88,8 +100,10 @@ void MatchBackward(const MovedSource& source,
                    const Surface& target,
                    const std::vector<int>& target_samples,
                    const MatchingOptions& options,
+                   MatchMemory* memory,
                    Candidate* candidates) {
   const std::vector<int>& samples = *source.samples;
+  memory->in_source.resize(target_samples.size(), -1);
   if (samples.empty() || target_samples.empty()) return;
   const NormalTest normals(*source.rest, target, options);
   const KdTree tree(*source.points);
@@ -102,8 +116,13 @@ void MatchBackward(const MovedSource& source,
       const int point = target_samples[i];
       const Eigen::Vector3d& position = target.cloud().points[point];
       const Eigen::Vector3d& target_normal = target.cloud().normals[point];
-      const Neighbor nearest = tree.NearestWithin(position, options.max_distance);
+      const int last = memory->in_source[i];
+      const double known = last >= 0 ? ((*source.points)[last] - position).norm()
+                                     : std::numeric_limits<double>::infinity();
+      const Neighbor nearest =
+          tree.NearestWithin(position, SearchRadius(options.max_distance, known));
       if (!nearest.found()) continue;
+      memory->in_source[i] = nearest.index;
       const int sample = samples[nearest.index];
       const Eigen::Vector3d& normal = (*source.normals)[nearest.index];
       Candidate& candidate = candidates[i];
@@ -136,13 +155,16 @@ double MedianDistance(const std::vector<Candidate>& candidates) {
 std::vector<Candidate> FindCandidates(const MovedSource& source,
                                       const Surface& target,
                                       const std::vector<int>& target_samples,
-                                      const MatchingOptions& options) {
+                                      const MatchingOptions& options,
+                                      MatchMemory* memory) {
   CHECK_EQ(source.points->size(), source.samples->size());
   CHECK_EQ(source.normals->size(), source.samples->size());
   std::vector<Candidate> candidates(source.samples->size() + target_samples.size());
-  MatchForward(source, target, options, candidates.data());
-  MatchBackward(
-      source, target, target_samples, options, candidates.data() + source.samples->size());
+  MatchMemory none;
+  if (memory == nullptr) memory = &none;
+  Candidate* backward = candidates.data() + source.samples->size();
+  MatchForward(source, target, options, memory, candidates.data());
+  MatchBackward(source, target, target_samples, options, memory, backward);
   return candidates;
 }
 
@@ -168,9 +190,10 @@ bool MatchingOptions::IsValid(std::string* error) const {
 Matches MatchBothWays(const MovedSource& source,
                       const Surface& target,
                       const std::vector<int>& target_samples,
-                      const MatchingOptions& options) {
+                      const MatchingOptions& options,
+                      MatchMemory* memory) {
   const std::vector<Candidate> candidates =
-      FindCandidates(source, target, target_samples, options);
+      FindCandidates(source, target, target_samples, options, memory);
   Matches matches;
   matches.robust_distance = kMadToSigma * MedianDistance(candidates);
   const double limit =
@@ -199,7 +222,7 @@ double UnmatchedShare(const MovedSource& source,
                       double width,
                       const MatchingOptions& options) {
   const std::vector<Candidate> candidates =
-      FindCandidates(source, target, target_samples, options);
+      FindCandidates(source, target, target_samples, options, nullptr);
   double sum = 0.0;
   for (const Candidate& candidate : candidates) {
     const double squared = candidate.distance * candidate.distance;

@@ -57,6 +57,7 @@ class NonrigidLoop {
   std::unique_ptr<Strategy> strategy_;
   MovingSamples moving_;
   std::vector<int> target_samples_;
+  MatchMemory memory_;
   double energy_ = 0.0;
   double stiffness_ = 1.0;
   bool initial_energy_known_ = false;
@@ -85,8 +86,10 @@ void NonrigidLoop::Report(double fraction) const {
 
 void NonrigidLoop::Match() {
   const Timer timer;
+  MatchingOptions matching = options_.matching;
+  matching.max_angle_deg = plan_.max_angle_deg;
   result_->matches =
-      MatchBothWays(moving_.Moved(), *target_, target_samples_, options_.matching);
+      MatchBothWays(moving_.Moved(), *target_, target_samples_, matching, &memory_);
   const double width =
       plan_.loss_width * std::max(result_->matches.robust_distance, options_.matching.resolution);
   problem_->SetCorrespondences(result_->matches.correspondences, std::max(width, 1e-12));
@@ -187,8 +190,9 @@ std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
   for (int level = 0; level < levels; ++level) {
     LevelPlan& plan = plans[level];
     const bool last = level == coarse_levels;
+    plan.max_angle_deg = options.matching.max_angle_deg;
     plan.steps = last ? schedule.fine_steps : coarse_steps;
-    plan.loss_width = last ? options.loss_width : options.narrow_loss_width;
+    plan.loss_width = last ? options.loss_width : options.careful_loss_width;
     plan.first_stiffness = stiffness;
     stiffness = last ? final_stiffness : stiffness * std::pow(ratio, plan.steps - 1);
     plan.last_stiffness = stiffness;

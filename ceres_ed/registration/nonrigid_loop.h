@@ -18,6 +18,8 @@ struct LevelPlan {
   int steps = 1;
   // Of the data loss, as a multiple of the robust standard deviation of the residuals.
   double loss_width = 10.0;
+  // Of the normals of a pair, degrees.
+  double max_angle_deg = 75.0;
   // Points of each surface that are matched.
   int samples = 1000;
   // What of the whole fit is done before and after this level, in [0, 1].

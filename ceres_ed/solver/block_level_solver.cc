@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 
+#include <glog/logging.h>
+
 namespace ceres_ed {
 namespace {
 
@@ -176,13 +178,12 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
 
 }  // namespace
 
-void BlockLevelSolver::UpdateStructure(const ProblemConfig& config,
-                                       const std::vector<int>& sizes,
-                                       const std::vector<std::pair<int, int>>& pairs) {
-  const bool same_unknowns = variable_nodes_ == config.variable_nodes && sizes_ == sizes;
-  if (same_unknowns && std::includes(pairs_.begin(), pairs_.end(), pairs.begin(), pairs.end())) {
-    return;
-  }
+void BlockLevelSolver::UpdateStructure(const ProblemConfig& config, NormalEquations* equations) {
+  const std::vector<int> sizes = equations->BlockSizes();
+  const bool same_unknowns = structure_ != nullptr && variable_nodes_ == config.variable_nodes &&
+                             sizes_ == sizes;
+  if (same_unknowns && equations->SetStructure(structure_.get())) return;
+  const std::vector<std::pair<int, int>> pairs = equations->BlockPairs();
   std::vector<std::pair<int, int>> joined = pairs;
   if (same_unknowns) {
     joined.clear();
@@ -196,6 +197,7 @@ void BlockLevelSolver::UpdateStructure(const ProblemConfig& config,
   cholesky_.reset();
   structure_ = std::make_unique<BlockStructure>(sizes_, pairs_);
   cholesky_ = std::make_unique<BlockCholesky>(*structure_);
+  CHECK(equations->SetStructure(structure_.get()));
 }
 
 bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
@@ -214,8 +216,7 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
     summary->levels.push_back(level);
     return true;
   }
-  UpdateStructure(config, equations.BlockSizes(), equations.BlockPairs());
-  equations.SetStructure(structure_.get());
+  UpdateStructure(config, &equations);
   level.build_time_s = timer.Restart();
   DeformationState solution = *state;
   Minimizer(equations, *structure_, options, cholesky_.get(), &solution).Run(&level, summary);

@@ -5,6 +5,7 @@
 #include <ceres_ed/solver/block_cholesky.h>
 #include <ceres_ed/solver/block_structure.h>
 #include <ceres_ed/solver/level_solver.h>
+#include <ceres_ed/solver/normal_equations.h>
 
 #include <memory>
 #include <utility>
@@ -25,9 +26,8 @@ class BlockLevelSolver final : public LevelSolver {
              SolveSummary* summary) override;
 
  private:
-  void UpdateStructure(const ProblemConfig& config,
-                       const std::vector<int>& sizes,
-                       const std::vector<std::pair<int, int>>& pairs);
+  // Sees to it that `equations` have a structure and a factor that fit them.
+  void UpdateStructure(const ProblemConfig& config, NormalEquations* equations);
 
   std::vector<char> variable_nodes_;
   std::vector<int> sizes_;

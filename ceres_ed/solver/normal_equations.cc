@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 #include <utility>
 
 #include <ceres/manifold.h>
@@ -18,6 +20,61 @@ constexpr int kRotationTangent = 3;
 constexpr int kCameraTangent = 6;
 
 }  // namespace
+
+// Finds the item on the same warped point, by open addressing.
+class NormalEquations::PointTable {
+ public:
+  explicit PointTable(std::size_t num_residuals) {
+    std::size_t size = 16;
+    while (size < 2 * num_residuals) size *= 2;
+    slots_.assign(size, -1);
+  }
+
+  // The item on the point of `residual`; -1 where there is none yet: the next item is noted as it.
+  int FindOrAdd(const std::vector<Item>& items,
+                const SelectedResidual& residual,
+                const PointCostFunction& cost) {
+    const std::size_t mask = slots_.size() - 1;
+    for (std::size_t slot = Hash(residual, cost.point()) & mask;; slot = (slot + 1) & mask) {
+      const int item = slots_[slot];
+      if (item < 0) {
+        slots_[slot] = static_cast<int>(items.size());
+        return -1;
+      }
+      if (IsSame(items[item], residual, cost)) return item;
+    }
+  }
+
+ private:
+  static std::size_t Hash(const SelectedResidual& residual, const BoundPoint& point) {
+    // Where a point lies relative to its first node tells it from almost all others.
+    std::uint64_t bits[2];
+    std::memcpy(bits, point.offset(0).data(), sizeof(bits));
+    std::uint64_t hash = bits[0] ^ (bits[1] * 0x9e3779b97f4a7c15ULL) ^
+                         static_cast<std::uint64_t>(residual.blocks[0].node);
+    hash = (hash ^ (hash >> 32)) * 0xd6e8feb86659fd93ULL;
+    return static_cast<std::size_t>(hash ^ (hash >> 32));
+  }
+
+  static bool IsSame(const Item& item,
+                     const SelectedResidual& residual,
+                     const PointCostFunction& cost) {
+    const BoundPoint& a = item.point->point();
+    const BoundPoint& b = cost.point();
+    if (item.point->has_camera() != cost.has_camera() || a.num_nodes() != b.num_nodes()) {
+      return false;
+    }
+    for (int i = 0; i < a.num_nodes(); ++i) {
+      if (item.residual.blocks[i].node != residual.blocks[i].node || a.weight(i) != b.weight(i) ||
+          a.offset(i) != b.offset(i)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  std::vector<int> slots_;
+};
 
 int NormalEquations::Item::LinearizationSize() const {
   return point != nullptr ? PointLinearization::kNumDoubles : num_residuals * (1 + width);
@@ -44,15 +101,29 @@ NormalEquations::NormalEquations(const ProblemBuilder& builder, const ProblemCon
   for (int t = 0; t < builder.num_terms(); ++t) losses_.push_back(MakeLoss(builder.loss(t)));
 
   items_.reserve(selected.size());
-  for (const SelectedResidual& residual : selected) AddItem(residual, block_of_node);
+  PointTable points(selected.size());
+  for (const SelectedResidual& residual : selected) AddItem(residual, block_of_node, &points);
 }
 
 void NormalEquations::AddItem(const SelectedResidual& residual,
-                              const std::vector<int>& block_of_node) {
+                              const std::vector<int>& block_of_node,
+                              PointTable* points) {
   Item item;
   item.residual = residual;
   item.point = dynamic_cast<const PointCostFunction*>(residual.cost);
   item.num_residuals = residual.cost->num_residuals();
+  max_residuals_ = std::max(max_residuals_, item.num_residuals);
+  if (item.point != nullptr) {
+    const int found = points->FindOrAdd(items_, residual, *item.point);
+    if (found >= 0) {
+      Item& shared = items_[found];
+      (shared.more < 0 ? shared.more : more_[shared.last_more].next) =
+          static_cast<int>(more_.size());
+      shared.last_more = static_cast<int>(more_.size());
+      more_.push_back({item.point, residual.term, residual.weight, -1});
+      return;
+    }
+  }
   item.first_part = static_cast<int>(parts_.size());
   for (int i = 0; i < residual.num_blocks; ++i) {
     const BlockRef& block = residual.blocks[i];
@@ -71,7 +142,6 @@ void NormalEquations::AddItem(const SelectedResidual& residual,
   }
   item.num_parts = residual.num_blocks;
   items_.push_back(item);
-  max_residuals_ = std::max(max_residuals_, item.num_residuals);
   max_blocks_ = std::max(max_blocks_, residual.num_blocks);
   max_linearization_ = std::max(max_linearization_, item.LinearizationSize());
 }
@@ -99,8 +169,8 @@ std::vector<std::pair<int, int>> NormalEquations::BlockPairs() const {
   return pairs;
 }
 
-void NormalEquations::SetStructure(const BlockStructure* structure) {
-  structure_ = structure;
+bool NormalEquations::SetStructure(const BlockStructure* structure) {
+  structure_ = nullptr;
   entries_.clear();
   for (Item& item : items_) {
     item.first_entry = static_cast<int>(entries_.size());
@@ -111,10 +181,12 @@ void NormalEquations::SetStructure(const BlockStructure* structure) {
         const bool held = row < 0 || column < 0;
         entries_.push_back(
             held ? -1 : structure->FindEntry(std::max(row, column), std::min(row, column)));
-        CHECK(held || entries_.back() >= 0) << "block (" << row << ", " << column << ")";
+        if (!held && entries_.back() < 0) return false;
       }
     }
   }
+  structure_ = structure;
+  return true;
 }
 
 bool NormalEquations::EvaluateSerial(const DeformationState& state,

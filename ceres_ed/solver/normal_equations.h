@@ -4,6 +4,7 @@
 
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/block_structure.h>
+#include <ceres_ed/solver/point_linearization.h>
 
 #include <memory>
 #include <utility>
@@ -29,8 +30,9 @@ class NormalEquations {
   // Pairs of blocks that share a residual, sorted and without repetition.
   std::vector<std::pair<int, int>> BlockPairs() const;
 
-  // Fixes where each residual's products go. `structure` has all of BlockPairs(), outlives this.
-  void SetStructure(const BlockStructure* structure);
+  // Fixes where each residual's products go. `structure` outlives this. False, and nothing is fixed,
+  // when it lacks one of BlockPairs().
+  bool SetStructure(const BlockStructure* structure);
 
   // Writes cost = sum of rho(|r|^2) / 2, values = J^T J in the layout of the structure (diagonal
   // blocks in full) and gradient = J^T r, with r and J corrected for the loss as Ceres does. False
@@ -59,10 +61,15 @@ class NormalEquations {
     int width = 0;
     int column = 0;
   };
+  // A residual block, or all those on one warped point: these share their blocks, and the products
+  // of their Jacobians are added up by the point before they are spread over the nodes.
   struct Item {
     SelectedResidual residual;
-    // Set where the cost function is one on a warped point: its Jacobian has a form of its own.
+    // Set where the cost functions are on a warped point: their Jacobian has a form of its own.
     const PointCostFunction* point = nullptr;
+    // The next residual on the same point, into more_; -1 behind the last one.
+    int more = -1;
+    int last_more = -1;
     int num_residuals = 0;
     int width = 0;
     int first_part = 0;
@@ -73,9 +80,17 @@ class NormalEquations {
     // Doubles that the item's linearisation takes.
     int LinearizationSize() const;
   };
-  // A linearised residual, corrected for its loss. Of a general one: residuals, then the parts of
-  // the Jacobian one after the other, each row-major. Of a point: PointLinearization.
-  // Buffers of one thread.
+  // A further residual on the point of an item.
+  struct PointResidual {
+    const PointCostFunction* cost = nullptr;
+    int term = -1;
+    double weight = 1.0;
+    int next = -1;
+  };
+  class PointTable;
+  // Buffers of one thread. A linearisation is corrected for the loss; of a general item it is the
+  // residuals, then the parts of the Jacobian one after the other, each row-major, and of a point
+  // PointLinearization.
   struct Scratch {
     explicit Scratch(const NormalEquations& equations);
 
@@ -87,13 +102,26 @@ class NormalEquations {
     std::vector<double*> jacobians;
   };
 
-  void AddItem(const SelectedResidual& residual, const std::vector<int>& block_of_node);
-  bool ApplyLoss(const Item& item, const double* residuals, double rho[3], double* cost) const;
+  void AddItem(const SelectedResidual& residual,
+               const std::vector<int>& block_of_node,
+               PointTable* points);
+  bool ApplyLoss(int term,
+                 double weight,
+                 int num_residuals,
+                 const double* residuals,
+                 double rho[3],
+                 double* cost) const;
   bool EvaluateGeneral(const Item& item,
                        const DeformationState& state,
                        double* linearization,
                        Scratch* scratch,
                        double* cost) const;
+  // One residual on a warped point, added to `linear` where that isn't null.
+  bool AddPointResidual(const PointResidual& residual,
+                        const Eigen::Vector3d& warped,
+                        PointLinearization* linear,
+                        Scratch* scratch,
+                        double* cost) const;
   bool EvaluatePoint(const Item& item,
                      const DeformationState& state,
                      double* linearization,
@@ -145,6 +173,7 @@ class NormalEquations {
   bool camera_variable_ = false;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
   std::vector<Item> items_;
+  std::vector<PointResidual> more_;
   std::vector<Part> parts_;
   std::vector<int> entries_;
   int max_residuals_ = 0;

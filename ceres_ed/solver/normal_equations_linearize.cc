@@ -27,21 +27,23 @@ NormalEquations::Scratch::Scratch(const NormalEquations& equations)
       blocks(equations.max_blocks_),
       jacobians(equations.max_blocks_) {}
 
-// The robust, weighted cost of an item; false when its residuals aren't finite.
-bool NormalEquations::ApplyLoss(const Item& item,
+// Adds the robust, weighted cost of a residual; false when it isn't finite.
+bool NormalEquations::ApplyLoss(int term,
+                                double weight,
+                                int num_residuals,
                                 const double* residuals,
                                 double rho[3],
                                 double* cost) const {
   double squared_norm = 0.0;
-  for (int r = 0; r < item.num_residuals; ++r) squared_norm += residuals[r] * residuals[r];
+  for (int r = 0; r < num_residuals; ++r) squared_norm += residuals[r] * residuals[r];
   if (!std::isfinite(squared_norm)) return false;
   rho[0] = squared_norm;
   rho[1] = 1.0;
   rho[2] = 0.0;
-  const ceres::LossFunction* loss = losses_[item.residual.term].get();
+  const ceres::LossFunction* loss = losses_[term].get();
   if (loss != nullptr) loss->Evaluate(squared_norm, rho);
-  for (int i = 0; i < 3; ++i) rho[i] *= item.residual.weight;
-  *cost = 0.5 * rho[0];
+  for (int i = 0; i < 3; ++i) rho[i] *= weight;
+  *cost += 0.5 * rho[0];
   return true;
 }
 
@@ -71,7 +73,14 @@ bool NormalEquations::EvaluateGeneral(const Item& item,
     return false;
   }
   double rho[3];
-  if (!ApplyLoss(item, residuals, rho, cost)) return false;
+  if (!ApplyLoss(item.residual.term,
+                 item.residual.weight,
+                 item.num_residuals,
+                 residuals,
+                 rho,
+                 cost)) {
+    return false;
+  }
   if (!with_jacobian) return true;
   if (rotation_part >= 0) {
     double plus_jacobian[kRotationSize * kRotationTangent];
@@ -95,6 +104,30 @@ bool NormalEquations::EvaluateGeneral(const Item& item,
   return true;
 }
 
+bool NormalEquations::AddPointResidual(const PointResidual& residual,
+                                       const Eigen::Vector3d& warped,
+                                       PointLinearization* linear,
+                                       Scratch* scratch,
+                                       double* cost) const {
+  const int num_residuals = residual.cost->num_residuals();
+  double* residuals = scratch->residuals.data();
+  double* derivative = linear != nullptr ? scratch->derivative.data() : nullptr;
+  if (!residual.cost->EvaluateAtPoint(warped.data(), residuals, derivative)) return false;
+  double rho[3];
+  if (!ApplyLoss(residual.term, residual.weight, num_residuals, residuals, rho, cost)) return false;
+  if (linear == nullptr) return true;
+  const Eigen::Map<const Eigen::VectorXd> r(residuals, num_residuals);
+  const LossCorrection correction(r.squaredNorm(), rho);
+  correction.CorrectJacobian(residuals, num_residuals, 3, derivative);
+  correction.CorrectResiduals(num_residuals, residuals);
+  for (int k = 0; k < num_residuals; ++k) {
+    const Eigen::Map<const Eigen::Vector3d> d(derivative + 3 * k);
+    linear->M_camera += d * d.transpose();
+    linear->v_camera += residuals[k] * d;
+  }
+  return true;
+}
+
 bool NormalEquations::EvaluatePoint(const Item& item,
                                     const DeformationState& state,
                                     double* linearization,
@@ -111,31 +144,25 @@ bool NormalEquations::EvaluatePoint(const Item& item,
     rotated = camera.rotation * warped;
     warped = rotated + camera.translation;
   }
-  double* residuals = scratch->residuals.data();
-  double* derivative = linearization != nullptr ? scratch->derivative.data() : nullptr;
-  if (!item.point->EvaluateAtPoint(warped.data(), residuals, derivative)) return false;
-  double rho[3];
-  if (!ApplyLoss(item, residuals, rho, cost)) return false;
-  if (linearization == nullptr) return true;
-  const Eigen::Map<const Eigen::VectorXd> r(residuals, item.num_residuals);
-  const LossCorrection correction(r.squaredNorm(), rho);
-  correction.CorrectJacobian(residuals, item.num_residuals, 3, derivative);
-  correction.CorrectResiduals(item.num_residuals, residuals);
-  PointLinearization& linear = *reinterpret_cast<PointLinearization*>(linearization);
-  linear.M_camera.setZero();
-  linear.v_camera.setZero();
-  for (int k = 0; k < item.num_residuals; ++k) {
-    const Eigen::Map<const Eigen::Vector3d> d(derivative + 3 * k);
-    linear.M_camera += d * d.transpose();
-    linear.v_camera += residuals[k] * d;
+  auto* linear = reinterpret_cast<PointLinearization*>(linearization);
+  if (linear != nullptr) {
+    linear->M_camera.setZero();
+    linear->v_camera.setZero();
   }
-  linear.M = linear.M_camera;
-  linear.v = linear.v_camera;
+  const PointResidual first{item.point, item.residual.term, item.residual.weight, item.more};
+  for (const PointResidual* residual = &first;;) {
+    if (!AddPointResidual(*residual, warped, linear, scratch, cost)) return false;
+    if (residual->next < 0) break;
+    residual = &more_[residual->next];
+  }
+  if (linear == nullptr) return true;
+  linear->M = linear->M_camera;
+  linear->v = linear->v_camera;
   if (item.point->has_camera()) {
-    linear.rotation = camera.rotation.toRotationMatrix();
-    linear.rotated = rotated;
-    linear.M = linear.rotation.transpose() * linear.M_camera * linear.rotation;
-    linear.v = linear.rotation.transpose() * linear.v_camera;
+    linear->rotation = camera.rotation.toRotationMatrix();
+    linear->rotated = rotated;
+    linear->M = linear->rotation.transpose() * linear->M_camera * linear->rotation;
+    linear->v = linear->rotation.transpose() * linear->v_camera;
   }
   return true;
 }
@@ -145,6 +172,7 @@ bool NormalEquations::EvaluateItem(const Item& item,
                                    double* linearization,
                                    Scratch* scratch,
                                    double* cost) const {
+  *cost = 0.0;
   return item.point != nullptr ? EvaluatePoint(item, state, linearization, scratch, cost)
                                : EvaluateGeneral(item, state, linearization, scratch, cost);
 }
