@@ -12,9 +12,9 @@
 namespace ceres_ed {
 
 // Runs the levels one after the other and carries the warp from graph to graph. On the coarse
-// graphs a narrow and a wide loss are both tried: a narrow one lets limbs that are far away wait
-// until what carries them is near, a wide one fetches what nothing else would bring. The one that
-// leaves less of the two surfaces unmatched goes on.
+// graphs a careful way (narrow loss, strict normals) and a bold one are both tried: the careful one
+// lets limbs that are far away wait until what carries them is near, the bold one fetches what
+// nothing else would bring. The one that leaves less of the two surfaces unmatched goes on.
 class CoarseToFine {
  public:
   explicit CoarseToFine(UnitFit fit) : fit_(std::move(fit)) {}

@@ -230,7 +230,7 @@ StatusOr<FitResult> Fitter::Run() {
                                        options_.num_threads);
     noise = FinishNoise(source, *target);
     result_.noise = noise / unit_from_target_.scale;
-    Denoised denoised = Denoise(*target, noise);
+    Denoised denoised = Denoise(*target, options_.denoise ? noise : 0.0);
     noise = denoised.noise;
     if (denoised.length > 0.0) {
       target = std::make_unique<Surface>(std::move(denoised.cloud), options_.num_threads);

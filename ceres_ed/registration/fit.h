@@ -109,6 +109,8 @@ struct FitOptions {
   // Points of each surface that are matched on the last level, >= 10; a quarter of them, but no
   // fewer than 1000, on the level before.
   int max_samples = 6000;
+  // Smooth a noisy target before it is followed.
+  bool denoise = true;
   bool rigid_first = true;
   RigidOptions rigid;
   // More energies, by name; means over their residuals as the built-in ones.

@@ -98,6 +98,8 @@ bool FitOptions::IsValid(std::string* error) const {
     bad("tolerance", schedule.tolerance, "> 0");
   } else if (!(std::min(loss_width, careful_loss_width) > 0.0)) {
     bad("loss_width or careful_loss_width", std::min(loss_width, careful_loss_width), "> 0");
+  } else if (!(careful_angle_deg > 0.0 && careful_angle_deg <= 180.0)) {
+    bad("careful_angle_deg", careful_angle_deg, "in (0, 180]");
   } else if (max_samples < 10) {
     bad("max_samples", max_samples, ">= 10");
   } else if (num_threads < 1) {

@@ -46,7 +46,10 @@ class NormalTest {
 
 // The mean of two normals, for the symmetric point-to-plane distance (Rusinkiewicz 2019): exact
 // along a second order curve through both points, so that surfaces may slide along each other.
-Eigen::Vector3d SymmetricNormal(const Eigen::Vector3d& source, const Eigen::Vector3d& target) {
+Eigen::Vector3d PairNormal(const Eigen::Vector3d& source,
+                           const Eigen::Vector3d& target,
+                           const MatchingOptions& options) {
+  if (!options.symmetric_normals) return target;
   const Eigen::Vector3d sum = target + (source.dot(target) < 0.0 ? -source : source);
   const double norm = sum.norm();
   return norm > 0.0 ? Eigen::Vector3d(sum / norm) : target;
@@ -86,11 +89,11 @@ void MatchForward(const MovedSource& source,
       const Eigen::Vector3d target_normal = target.NormalAt(hit);
       candidate.match = {samples[i],
                          hit.position,
-                         SymmetricNormal(normal, target_normal),
+                         PairNormal(normal, target_normal, options),
                          source.rest->relative_areas()[samples[i]] / samples.size()};
       candidate.gap = point - hit.position;
       candidate.distance = std::sqrt(hit.squared_distance);
-      candidate.on_border = hit.on_border;
+      candidate.on_border = options.reject_borders && hit.on_border;
       candidate.normals_agree = normals.Agree(normal, target_normal);
     }
   });
@@ -128,12 +131,13 @@ void MatchBackward(const MovedSource& source,
       Candidate& candidate = candidates[i];
       candidate.match = {sample,
                          position,
-                         SymmetricNormal(normal, target_normal),
+                         PairNormal(normal, target_normal, options),
                          target.relative_areas()[point] / count};
       candidate.gap = (*source.points)[nearest.index] - position;
       candidate.distance = DistanceFromDisc(
           candidate.gap, candidate.match.normal, spread * source.rest->radius(sample));
-      candidate.on_border = source.rest->topology().is_border[sample] != 0;
+      candidate.on_border =
+          options.reject_borders && source.rest->topology().is_border[sample] != 0;
       candidate.normals_agree = normals.Agree(normal, target_normal);
     }
   });

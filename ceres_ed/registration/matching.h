@@ -21,6 +21,10 @@ struct MatchingOptions {
   // No pair farther apart than this multiple of the robust standard deviation of all distances
   // (1.4826 times their median), > 0.
   double max_deviations = 40.0;
+  // No pair whose closest point lies on a border: the other surface goes on where this one ends.
+  bool reject_borders = true;
+  // Point-to-plane to the mean of both normals instead of the target's.
+  bool symmetric_normals = true;
   // Pairs this near are kept whatever the deviations say, >= 0: the resolution of the surfaces.
   double resolution = 0.0;
   // The result doesn't depend on it, >= 1.
