@@ -125,7 +125,7 @@ void NonrigidLoop::MeasureInitialEnergy() {
 
 NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
   if (target_ != nullptr) Match();
-  if (!initial_energy_known_) MeasureInitialEnergy();
+  if (!initial_energy_known_ && plan_.is_last) MeasureInitialEnergy();
   SolveSummary summary = Solve(max_iterations);
   // A step that is refused only shrinks the trust region: it doesn't mean that nothing moves.
   if (summary.status == SolveStatus::kMaxIterations &&
@@ -166,7 +166,7 @@ void NonrigidLoop::Run() {
     result_->message = still ? "the surface stands still" : "rounds used up while still moving";
   }
   result_->point_relevant = problem_->builder().PointRelevantNodes();
-  result_->final_energy = problem_->builder().Evaluate(*state_);
+  if (plan_.is_last) result_->final_energy = problem_->builder().Evaluate(*state_);
 }
 
 }  // namespace
@@ -191,6 +191,7 @@ std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
     LevelPlan& plan = plans[level];
     const bool last = level == coarse_levels;
     plan.max_angle_deg = options.matching.max_angle_deg;
+    plan.is_last = last;
     plan.steps = last ? schedule.fine_steps : coarse_steps;
     plan.loss_width = last ? options.loss_width : options.careful_loss_width;
     plan.first_stiffness = stiffness;

@@ -16,6 +16,8 @@ struct LevelPlan {
   double first_stiffness = 1.0;
   double last_stiffness = 1.0;
   int steps = 1;
+  // The others end before anyone asks for their energies.
+  bool is_last = true;
   // Of the data loss, as a multiple of the robust standard deviation of the residuals.
   double loss_width = 10.0;
   // Of the normals of a pair, degrees.
