@@ -1,7 +1,7 @@
 #include "ceres_ed/registration/denoise.h"
 
 #include <ceres_ed/geometry/normals.h>
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/sparse_cholesky.h>
 
@@ -19,7 +19,7 @@ constexpr double kAcceptedTurn = 0.1;
 constexpr double kTurnPerSlope = 0.742;
 constexpr double kLeftOfNoise = 0.465;
 
-double MeanEdge(const FinishMesh& mesh, const std::vector<Eigen::Vector3d>& points) {
+double MeanEdge(const WeldedMesh& mesh, const std::vector<Eigen::Vector3d>& points) {
   double sum = 0.0;
   for (const auto& [a, b] : mesh.edges) {
     sum += (points[mesh.point_of_vertex[a]] - points[mesh.point_of_vertex[b]]).norm();
@@ -27,7 +27,7 @@ double MeanEdge(const FinishMesh& mesh, const std::vector<Eigen::Vector3d>& poin
   return mesh.edges.empty() ? 0.0 : sum / static_cast<double>(mesh.edges.size());
 }
 
-Eigen::MatrixXd Smoothed(const FinishMesh& mesh, const Eigen::MatrixXd& points, double length) {
+Eigen::MatrixXd Smoothed(const WeldedMesh& mesh, const Eigen::MatrixXd& points, double length) {
   const ScopedSerialLinearAlgebra serial;
   SparseCholesky::Matrix matrix = SquaredLaplacian(mesh);
   // An isolated vertex stays.
@@ -51,7 +51,7 @@ Eigen::MatrixXd Smoothed(const FinishMesh& mesh, const Eigen::MatrixXd& points, 
 Denoised Denoise(const Surface& surface, double noise) {
   Denoised denoised;
   denoised.noise = noise;
-  const FinishMesh mesh = BuildFinishMesh(surface);
+  const WeldedMesh mesh = BuildWeldedMesh(surface.cloud(), surface.topology());
   const double edge = MeanEdge(mesh, surface.cloud().points);
   if (!(noise > 0.0) || !(edge > 0.0)) return denoised;
   const double length = std::sqrt(kTurnPerSlope * noise / (kAcceptedTurn * edge));

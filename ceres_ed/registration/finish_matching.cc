@@ -24,7 +24,7 @@ double Median(std::vector<double> values) {
 }  // namespace
 
 FinishMatcher::FinishMatcher(const Surface& source,
-                             const FinishMesh& mesh,
+                             const WeldedMesh& mesh,
                              const std::vector<Eigen::Vector3d>& fallback_normals,
                              const Surface& target,
                              const MatchingOptions& options)
@@ -107,7 +107,7 @@ void FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
 std::vector<FinishPair> FinishMatcher::Match(const std::vector<Eigen::Vector3d>& points,
                                              double loss_width) {
   const std::vector<Eigen::Vector3d> normals =
-      mesh_.triangles.empty() ? fallback_normals_ : FinishNormals(mesh_, points);
+      mesh_.triangles.empty() ? fallback_normals_ : WeldedNormals(mesh_, points);
   std::vector<Candidate> candidates;
   candidates.reserve(points.size() + target_samples_.size());
   MatchForward(points, normals, &candidates);

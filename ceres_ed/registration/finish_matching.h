@@ -2,7 +2,7 @@
 #ifndef CERES_ED_REGISTRATION_FINISH_MATCHING_H_
 #define CERES_ED_REGISTRATION_FINISH_MATCHING_H_
 
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/matching.h>
 #include <ceres_ed/registration/surface.h>
 
@@ -29,7 +29,7 @@ class FinishMatcher {
  public:
   // All must outlive this. `fallback_normals`, one a vertex, serve where there are no triangles.
   FinishMatcher(const Surface& source,
-                const FinishMesh& mesh,
+                const WeldedMesh& mesh,
                 const std::vector<Eigen::Vector3d>& fallback_normals,
                 const Surface& target,
                 const MatchingOptions& options);
@@ -59,7 +59,7 @@ class FinishMatcher {
   Eigen::Vector3d Between(const Eigen::Vector3d& moving, const Eigen::Vector3d& still) const;
 
   const Surface& source_;
-  const FinishMesh& mesh_;
+  const WeldedMesh& mesh_;
   const std::vector<Eigen::Vector3d>& fallback_normals_;
   const Surface& target_;
   const MatchingOptions& options_;

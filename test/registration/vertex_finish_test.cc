@@ -1,5 +1,4 @@
 #include <ceres_ed/geometry/closest_point.h>
-#include <ceres_ed/registration/finish_mesh.h>
 #include <ceres_ed/registration/vertex_finish.h>
 #include <ceres_ed/testing/synthetic_shapes.h>
 #include <ceres_ed/testing/synthetic_views.h>
@@ -157,22 +156,6 @@ TEST(FinishVertices, IsTheSameForAMeshWhoseTrianglesShareNoVertices) {
     // The order of the vertices and so of all sums differs.
     EXPECT_LT((result.points[p] - expected.points[origin[p]]).norm(), 1e-9) << p;
   }
-}
-
-TEST(SquaredLaplacian, IsTheSquareOfTheUniformOne) {
-  const Surface surface(MakeGridMesh(4, 5, 1.0));
-  const FinishMesh mesh = BuildFinishMesh(surface);
-  const int size = mesh.num_vertices();
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(size, size);
-  for (const auto& [a, b] : mesh.edges) {
-    L(a, a) += 1.0;
-    L(b, b) += 1.0;
-    L(a, b) = L(b, a) = -1.0;
-  }
-  const Eigen::MatrixXd expected = L * L.diagonal().cwiseInverse().asDiagonal() * L;
-  const Eigen::MatrixXd found = SquaredLaplacian(mesh);
-  const Eigen::MatrixXd lower = expected.triangularView<Eigen::Lower>();
-  EXPECT_LT((found - lower).norm(), 1e-13);
 }
 
 TEST(FinishOptions, NameWhatIsWrong) {
