@@ -65,6 +65,25 @@ TEST(FinishVertices, BringsBarePointsOntoTheirTarget) {
   EXPECT_LT(MeanDistance(result.points, target), 0.2 * MeanDistance(source.cloud().points, target));
 }
 
+// Facets of a coarse mesh lie within the surface that its vertices are on: pulled to it, they would
+// push the vertices beyond.
+TEST(FinishVertices, PutsTheVerticesOfACoarseMeshOnTheSurface) {
+  PointCloud small = MakeSphereMesh(2);
+  for (Eigen::Vector3d& point : small.points) point *= 0.97;
+  for (const int levels : {1, 2, 4}) {
+    const Surface source(small);
+    const Surface target(MakeSphereMesh(levels));
+    const FinishResult result = FinishVertices(InputOf(source, target), {});
+    double mean = 0.0;
+    for (const Eigen::Vector3d& point : result.points) {
+      mean += point.norm() / static_cast<double>(result.points.size());
+    }
+    // The middle of a facet of the source is 1.3 % below the sphere, one of the coarsest target 5
+    // %.
+    EXPECT_NEAR(mean, 1.0, 0.003) << levels;
+  }
+}
+
 TEST(FinishVertices, DoesNotTraceNoise) {
   const Surface source(MakeBody(3000));
   PointCloud noisy = MakeBody(8000);
