@@ -36,8 +36,10 @@ class FinishMatcher {
 
   // The pairs of the vertices at `points`: of each vertex with the closest point of the target, and
   // of each target sample with the closest point of the moving surface. Believed as in
-  // MatchBothWays; weights are Welsch's with `loss_width` robust standard deviations of the
-  // distances across the surface. They sum to at most the number of vertices, each way half.
+  // MatchBothWays. Where triangles span a curved surface, targets are moved by how far it lies from
+  // them, as the normals of their corners tell. Weights are Welsch's with `loss_width` robust
+  // standard deviations of the distances across the surface. They sum to at most the number of
+  // vertices, each way half.
   std::vector<FinishPair> Match(const std::vector<Eigen::Vector3d>& points, double loss_width);
 
   // 1.4826 times the median distance across the surface of what was paired last.
