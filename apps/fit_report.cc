@@ -141,6 +141,7 @@ ordered_json FitReport(const FitRun& run) {
       {"rms",
        {{"point_to_plane", result.matches.rms_plane},
         {"point_to_point", result.matches.rms_point}}},
+      {"noise", result.noise},
       {"landmarks", {{"count", landmarks.count}, {"rms", landmarks.rms}, {"max", landmarks.max}}},
       {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
       {"rigid", RigidReport(result.rigid)},

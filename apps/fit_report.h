@@ -25,6 +25,7 @@ struct FitRun {
 };
 
 // Returns the contents of report.json; lengths are in the target's unit, but for the diagonals.
+// "noise" is the standard deviation of the target's noise across its surface.
 nlohmann::ordered_json FitReport(const FitRun& run);
 
 // Returns a few aligned lines on how the fit went.

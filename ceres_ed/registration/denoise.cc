@@ -1,10 +1,11 @@
 #include "ceres_ed/registration/denoise.h"
 
 #include <ceres_ed/geometry/normals.h>
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/sparse_cholesky.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -18,16 +19,35 @@ constexpr double kAcceptedTurn = 0.1;
 // See the header: of the turn of normals, and of the noise that is left.
 constexpr double kTurnPerSlope = 0.742;
 constexpr double kLeftOfNoise = 0.465;
+// Of the mean square of an edge: less can't be told from an error of the noise's estimate.
+constexpr double kMinCleanShare = 0.25;
 
-double MeanEdge(const FinishMesh& mesh, const std::vector<Eigen::Vector3d>& points) {
+// The mean length of the edges without what noise adds to them: the ends of an edge differ by
+// sqrt(2) noise across the surface.
+double CleanEdge(const WeldedMesh& mesh, const std::vector<Eigen::Vector3d>& points, double noise) {
   double sum = 0.0;
+  double squares = 0.0;
   for (const auto& [a, b] : mesh.edges) {
-    sum += (points[mesh.point_of_vertex[a]] - points[mesh.point_of_vertex[b]]).norm();
+    const Eigen::Vector3d edge = points[mesh.point_of_vertex[a]] - points[mesh.point_of_vertex[b]];
+    sum += edge.norm();
+    squares += edge.squaredNorm();
   }
-  return mesh.edges.empty() ? 0.0 : sum / static_cast<double>(mesh.edges.size());
+  if (!(squares > 0.0)) return 0.0;
+  const double count = static_cast<double>(mesh.edges.size());
+  const double clean_share = 1.0 - 2.0 * noise * noise * count / squares;
+  return sum / count * std::sqrt(std::max(kMinCleanShare, clean_share));
 }
 
-Eigen::MatrixXd Smoothed(const FinishMesh& mesh, const Eigen::MatrixXd& points, double length) {
+// Turns `normals` as a whole to the side of `given`: triangles may be wound the other way than the
+// normals of a file look.
+void TakeSideOf(const std::vector<Eigen::Vector3d>& given, std::vector<Eigen::Vector3d>* normals) {
+  double agreement = 0.0;
+  for (std::size_t p = 0; p < given.size(); ++p) agreement += given[p].dot((*normals)[p]);
+  if (agreement >= 0.0) return;
+  for (Eigen::Vector3d& normal : *normals) normal = -normal;
+}
+
+Eigen::MatrixXd Smoothed(const WeldedMesh& mesh, const Eigen::MatrixXd& points, double length) {
   const ScopedSerialLinearAlgebra serial;
   SparseCholesky::Matrix matrix = SquaredLaplacian(mesh);
   // An isolated vertex stays.
@@ -51,8 +71,8 @@ Eigen::MatrixXd Smoothed(const FinishMesh& mesh, const Eigen::MatrixXd& points, 
 Denoised Denoise(const Surface& surface, double noise) {
   Denoised denoised;
   denoised.noise = noise;
-  const FinishMesh mesh = BuildFinishMesh(surface);
-  const double edge = MeanEdge(mesh, surface.cloud().points);
+  const WeldedMesh mesh = BuildWeldedMesh(surface.cloud(), surface.topology());
+  const double edge = CleanEdge(mesh, surface.cloud().points, noise);
   if (!(noise > 0.0) || !(edge > 0.0)) return denoised;
   const double length = std::sqrt(kTurnPerSlope * noise / (kAcceptedTurn * edge));
   if (length < 1.0) return denoised;
@@ -71,6 +91,7 @@ Denoised Denoise(const Surface& surface, double noise) {
     cloud.points[p] = smoothed.row(mesh.vertex_of_point[p]).transpose();
   }
   EnsureNormals(&cloud);
+  if (cloud.HasTriangles()) TakeSideOf(surface.cloud().normals, &cloud.normals);
   // Along the surface points stay where they were: the border keeps its place.
   for (std::size_t p = 0; p < cloud.size(); ++p) {
     const Eigen::Vector3d& normal = cloud.normals[p];

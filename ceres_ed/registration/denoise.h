@@ -23,7 +23,8 @@ struct Denoised {
 // With D the number of neighbours, L the uniform Laplacian and l the length in edges it solves
 //   (D / l^4 + L D^-1 L) z = D / l^4 x
 // and moves every point by the part of z - x along the normal of z. On a regular mesh of edge h
-// this leaves 0.465 sigma / l of white noise and turns normals by 0.742 sigma / (h l^2).
+// (that of the surface without its noise) this leaves 0.465 sigma / l of white noise and turns
+// normals by 0.742 sigma / (h l^2): to 7 % from l = 2 on; at l = 1 the factors are 0.57 and 0.52.
 Denoised Denoise(const Surface& surface, double noise);
 
 }  // namespace ceres_ed

@@ -21,10 +21,27 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
+// How far the surface of which a triangle is a facet lies from the point `blend` of it: with the
+// normals of its corners, to second order (half of what Phong tessellation adds; Boubekeur and
+// Alexa 2008). Up to the sign of each normal.
+Eigen::Vector3d Sagitta(const std::array<int, 3>& triangle,
+                        const Eigen::Vector3d& blend,
+                        const std::vector<Eigen::Vector3d>& points,
+                        const std::vector<Eigen::Vector3d>& normals) {
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) position += blend[k] * points[triangle[k]];
+  Eigen::Vector3d sagitta = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::Vector3d& normal = normals[triangle[k]];
+    sagitta -= 0.5 * blend[k] * normal.dot(position - points[triangle[k]]) * normal;
+  }
+  return sagitta;
+}
+
 }  // namespace
 
 FinishMatcher::FinishMatcher(const Surface& source,
-                             const FinishMesh& mesh,
+                             const WeldedMesh& mesh,
                              const std::vector<Eigen::Vector3d>& fallback_normals,
                              const Surface& target,
                              const MatchingOptions& options)
@@ -59,8 +76,14 @@ void FinishMatcher::MatchForward(const std::vector<Eigen::Vector3d>& points,
     if (candidate.pair.normal.isZero(0.0)) continue;
     candidate.pair.vertices = {v, v, v};
     candidate.pair.target = hit.position;
+    if (hit.triangle >= 0) {
+      candidate.pair.target += Sagitta(target_.cloud().triangles[hit.triangle],
+                                       hit.barycentric,
+                                       target_.cloud().points,
+                                       target_.cloud().normals);
+    }
     candidate.distance = std::sqrt(hit.squared_distance);
-    candidate.plane = std::abs(candidate.pair.normal.dot(points[v] - hit.position));
+    candidate.plane = std::abs(candidate.pair.normal.dot(points[v] - candidate.pair.target));
     candidates->push_back(candidate);
   }
 }
@@ -97,9 +120,9 @@ void FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
     for (int k = 0; k < 3; ++k) moving += pair.blend[k] * normals[pair.vertices[k]];
     pair.normal = Between(moving.normalized(), target_.cloud().normals[sample]);
     if (pair.normal.isZero(0.0)) continue;
-    pair.target = position;
+    pair.target = position - Sagitta(pair.vertices, pair.blend, points, normals);
     candidate.distance = std::sqrt(best);
-    candidate.plane = std::abs(pair.normal.dot(closest - position));
+    candidate.plane = std::abs(pair.normal.dot(closest - pair.target));
     candidates->push_back(candidate);
   }
 }
@@ -107,7 +130,7 @@ void FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
 std::vector<FinishPair> FinishMatcher::Match(const std::vector<Eigen::Vector3d>& points,
                                              double loss_width) {
   const std::vector<Eigen::Vector3d> normals =
-      mesh_.triangles.empty() ? fallback_normals_ : FinishNormals(mesh_, points);
+      mesh_.triangles.empty() ? fallback_normals_ : WeldedNormals(mesh_, points);
   std::vector<Candidate> candidates;
   candidates.reserve(points.size() + target_samples_.size());
   MatchForward(points, normals, &candidates);

@@ -2,7 +2,7 @@
 #ifndef CERES_ED_REGISTRATION_FINISH_MATCHING_H_
 #define CERES_ED_REGISTRATION_FINISH_MATCHING_H_
 
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/matching.h>
 #include <ceres_ed/registration/surface.h>
 
@@ -29,15 +29,17 @@ class FinishMatcher {
  public:
   // All must outlive this. `fallback_normals`, one a vertex, serve where there are no triangles.
   FinishMatcher(const Surface& source,
-                const FinishMesh& mesh,
+                const WeldedMesh& mesh,
                 const std::vector<Eigen::Vector3d>& fallback_normals,
                 const Surface& target,
                 const MatchingOptions& options);
 
   // The pairs of the vertices at `points`: of each vertex with the closest point of the target, and
   // of each target sample with the closest point of the moving surface. Believed as in
-  // MatchBothWays; weights are Welsch's with `loss_width` robust standard deviations of the
-  // distances across the surface. They sum to at most the number of vertices, each way half.
+  // MatchBothWays. Where triangles span a curved surface, targets are moved by how far it lies from
+  // them, as the normals of their corners tell. Weights are Welsch's with `loss_width` robust
+  // standard deviations of the distances across the surface. They sum to at most the number of
+  // vertices, each way half.
   std::vector<FinishPair> Match(const std::vector<Eigen::Vector3d>& points, double loss_width);
 
   // 1.4826 times the median distance across the surface of what was paired last.
@@ -59,7 +61,7 @@ class FinishMatcher {
   Eigen::Vector3d Between(const Eigen::Vector3d& moving, const Eigen::Vector3d& still) const;
 
   const Surface& source_;
-  const FinishMesh& mesh_;
+  const WeldedMesh& mesh_;
   const std::vector<Eigen::Vector3d>& fallback_normals_;
   const Surface& target_;
   const MatchingOptions& options_;

@@ -30,7 +30,7 @@ bool IsBad(const Eigen::Vector3d& before, const Eigen::Vector3d& after) {
 }
 
 // Half way from the displacement of `v` to the mean of its neighbours'.
-Eigen::Vector3d Smoothed(const FinishMesh& mesh,
+Eigen::Vector3d Smoothed(const WeldedMesh& mesh,
                          const std::vector<Eigen::Vector3d>& displacements,
                          int v) {
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -46,7 +46,7 @@ Eigen::Vector3d Smoothed(const FinishMesh& mesh,
 // The vertices of those of `triangles` that turn over or change too much, each once.
 class FoldFinder {
  public:
-  FoldFinder(const FinishMesh& mesh,
+  FoldFinder(const WeldedMesh& mesh,
              const std::vector<Eigen::Vector3d>& start,
              const std::vector<Eigen::Vector3d>& normals)
       : mesh_(mesh), normals_(normals), is_hit_(start.size(), 0) {
@@ -82,7 +82,7 @@ class FoldFinder {
   }
 
  private:
-  const FinishMesh& mesh_;
+  const WeldedMesh& mesh_;
   const std::vector<Eigen::Vector3d>& normals_;
   // Zero for triangles that may turn.
   std::vector<Eigen::Vector3d> before_;
@@ -91,7 +91,7 @@ class FoldFinder {
 
 }  // namespace
 
-int DampFolds(const FinishMesh& mesh,
+int DampFolds(const WeldedMesh& mesh,
               const std::vector<Eigen::Vector3d>& start,
               const std::vector<Eigen::Vector3d>& normals,
               std::vector<Eigen::Vector3d>* points) {

@@ -2,7 +2,7 @@
 #ifndef CERES_ED_REGISTRATION_FOLD_GUARD_H_
 #define CERES_ED_REGISTRATION_FOLD_GUARD_H_
 
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 
 #include <vector>
 
@@ -15,7 +15,7 @@ namespace ceres_ed {
 // that, or whose area changes by more than a factor of 10, until none is left. `normals`, one a
 // vertex, are what the surface should have; triangles whose normal at `start` points away from them
 // are folded and may turn. Returns how many vertices were held back.
-int DampFolds(const FinishMesh& mesh,
+int DampFolds(const WeldedMesh& mesh,
               const std::vector<Eigen::Vector3d>& start,
               const std::vector<Eigen::Vector3d>& normals,
               std::vector<Eigen::Vector3d>* points);

@@ -1,8 +1,8 @@
 #include "ceres_ed/registration/vertex_finish.h"
 
 #include <ceres_ed/geometry/noise_estimate.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/finish_matching.h>
-#include <ceres_ed/registration/finish_mesh.h>
 #include <ceres_ed/registration/fold_guard.h>
 #include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/sparse_cholesky.h>
@@ -41,7 +41,7 @@ class Finisher {
   Finisher(const FinishInput& input, const FinishOptions& options)
       : input_(input),
         options_(options),
-        mesh_(BuildFinishMesh(*input.source)),
+        mesh_(BuildWeldedMesh(input.source->cloud(), input.source->topology())),
         start_(AtVertices(*input.points)),
         normals_(AtVertices(*input.normals)),
         points_(start_),
@@ -63,7 +63,7 @@ class Finisher {
 
   const FinishInput& input_;
   const FinishOptions& options_;
-  const FinishMesh mesh_;
+  const WeldedMesh mesh_;
   const std::vector<Eigen::Vector3d> start_;
   const std::vector<Eigen::Vector3d> normals_;
   std::vector<Eigen::Vector3d> points_;

@@ -1,5 +1,6 @@
 // What ed_fit says: the summary, and every field of report.json.
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/testing/synthetic_views.h>
 
 #include <gmock/gmock.h>
 #include <test/cli/ed_fit_test_util.h>
@@ -70,6 +71,7 @@ TEST_F(EdFitTest, ReportsEveryFieldWithItsType) {
           "energy/terms/point_to_plane/raw",
           "rms/point_to_plane",
           "rms/point_to_point",
+          "noise",
           "rigid/rotation_deg",
           "rigid/translation/2",
           "rigid/scale",
@@ -109,6 +111,19 @@ TEST_F(EdFitTest, ReportsFiguresThatAgreeWithTheFiles) {
   EXPECT_GT(report["rms"]["point_to_plane"], 0.0);
   EXPECT_LT(report["rms"]["point_to_plane"], kRingFacets);
   EXPECT_GT(report["time_s"]["total"], report["time_s"]["solve"]);
+}
+
+TEST_F(EdFitTest, ReportsTheNoiseOfTheTarget) {
+  RingOptions dense;
+  dense.columns = 72;
+  dense.rows = 36;
+  WriteBytes(dir_ / "source.ply", RingPly(dense));
+  LoadedCloud target = Load("source.ply");
+  AddSyntheticNoise(0.01, 9, &target.cloud);
+  const std::vector<Eigen::Vector3d> noisy = target.cloud.points;
+  ASSERT_TRUE(SaveCloud(dir_ / "target.ply", target, noisy, nullptr).ok());
+  ASSERT_EQ(FitPair({"--report=" + (dir_ / "report.json")}).exit_code, 0);
+  EXPECT_NEAR(double(Report()["noise"]), 0.01, 0.15 * 0.01);
 }
 
 }  // namespace

@@ -21,9 +21,9 @@ class FoldGuard : public ::testing::Test {
     return down;
   }
 
-  const Surface surface_{MakeGridMesh(9, 9, 1.0)};
-  const FinishMesh mesh_ = BuildFinishMesh(surface_);
-  const std::vector<Eigen::Vector3d> start_ = surface_.cloud().points;
+  const PointCloud cloud_ = MakeGridMesh(9, 9, 1.0);
+  const WeldedMesh mesh_ = BuildWeldedMesh(cloud_, BuildTopology(cloud_));
+  const std::vector<Eigen::Vector3d> start_ = cloud_.points;
   const std::vector<Eigen::Vector3d> up_ =
       std::vector<Eigen::Vector3d>(start_.size(), Eigen::Vector3d::UnitZ());
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <random>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -114,6 +115,80 @@ TEST(Matching, RejectsWhatIsTooFar) {
                     target,
                     {},
                     options)));
+}
+
+// Random points on the unit sphere with their normals.
+PointCloud MakeBareSphere(int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> gaussian;
+  PointCloud sphere;
+  for (int i = 0; i < count; ++i) {
+    const double x = gaussian(random);
+    const double y = gaussian(random);
+    sphere.points.push_back(Eigen::Vector3d(x, y, gaussian(random)).normalized());
+  }
+  sphere.normals = sphere.points;
+  return sphere;
+}
+
+TEST(Matching, TakesTheNormalHalfWayBetweenThoseOfTheTwoSurfaces) {
+  const Surface source(MakeBareSphere(150, 1));
+  const Surface target(MakeBareSphere(150, 2));
+  const Matches matches = MatchAtRest(source, target, MatchingOptions());
+  ASSERT_GT(matches.inliers, 200);
+  for (const Correspondence& match : matches.correspondences) {
+    const Eigen::Vector3d half_way = source.cloud().normals[match.point] + match.target;
+    EXPECT_LT((match.normal - half_way.normalized()).norm(), 1e-12);
+  }
+  // Points of one sphere lie on each other's symmetric planes: (p - q).(p + q) = 0.
+  EXPECT_GT(matches.rms_point, 0.05);
+  EXPECT_LT(matches.rms_plane, 1e-12);
+}
+
+TEST(Matching, TakesThatNormalUpToSignWhereSignsAreUnknown) {
+  PointCloud unsure = MakeBareSphere(150, 2);
+  unsure.normals_oriented = false;
+  for (std::size_t p = 0; p < unsure.size(); p += 2) unsure.normals[p] = -unsure.normals[p];
+  const Surface source(MakeBareSphere(150, 1));
+  const Matches expected = MatchAtRest(source, Surface(MakeBareSphere(150, 2)), MatchingOptions());
+  const Matches matches = MatchAtRest(source, Surface(unsure), MatchingOptions());
+  EXPECT_EQ(matches.inliers, expected.inliers);
+  EXPECT_LT(matches.rms_plane, 1e-12);
+}
+
+// The pair of one target point that faces +z with a source grid in z = 0.
+Matches MatchBack(const Eigen::Vector3d& target_point) {
+  const Surface source(MakeGrid(7, 7, {0.0, 0.0, 0.0}));
+  PointCloud cloud;
+  cloud.points = {target_point};
+  cloud.normals = {Eigen::Vector3d::UnitZ()};
+  const Surface target(cloud);
+  return MatchBothWays({&source, &source.cloud().points, &source.cloud().normals},
+                       {},
+                       target,
+                       {0},
+                       MatchingOptions());
+}
+
+TEST(Matching, CountsATargetPointWithinTheDiscOfASourcePointAsFacingIt) {
+  // An inner point stands for an area of 1, a disc of radius 0.56.
+  for (const double height : {0.0, 0.2}) {
+    const Matches matches = MatchBack({3.3, 3.4, height});
+    ASSERT_EQ(matches.inliers, 1);
+    const Correspondence& match = matches.correspondences[0];
+    EXPECT_EQ(match.point, 3 * 7 + 3);
+    EXPECT_LT((match.target - Eigen::Vector3d(3.0, 3.0, height)).norm(), 1e-12);
+    EXPECT_NEAR(matches.rms_point, height, 1e-12);
+    EXPECT_NEAR(matches.rms_plane, height, 1e-12);
+  }
+}
+
+TEST(Matching, CountsATargetPointBeyondTheDiscFromItsRim) {
+  // In the middle of a cell, sqrt(1/2) from its corners.
+  const Matches matches = MatchBack({3.5, 3.5, 0.0});
+  ASSERT_EQ(matches.inliers, 1);
+  EXPECT_NEAR(matches.rms_point, std::sqrt(0.5) - std::sqrt(1.0 / M_PI), 1e-12);
+  EXPECT_NEAR(matches.rms_plane, 0.0, 1e-12);
 }
 
 TEST(Matching, WeighsEachDirectionByAreaToAtMostOne) {

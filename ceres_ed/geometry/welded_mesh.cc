@@ -1,4 +1,4 @@
-#include "ceres_ed/registration/finish_mesh.h"
+#include "ceres_ed/geometry/welded_mesh.h"
 
 #include <ceres_ed/geometry/kd_tree.h>
 
@@ -12,7 +12,7 @@ namespace {
 // Of a bare point; as many as a vertex of a regular mesh has.
 constexpr int kBareNeighbors = 6;
 
-void NumberVertices(const SurfaceTopology& topology, FinishMesh* mesh) {
+void NumberVertices(const SurfaceTopology& topology, WeldedMesh* mesh) {
   const int num_points = topology.num_points();
   mesh->vertex_of_point.resize(num_points);
   for (int p = 0; p < num_points; ++p) {
@@ -25,7 +25,7 @@ void NumberVertices(const SurfaceTopology& topology, FinishMesh* mesh) {
   }
 }
 
-void CollectTriangles(const PointCloud& cloud, FinishMesh* mesh) {
+void CollectTriangles(const PointCloud& cloud, WeldedMesh* mesh) {
   mesh->around_offsets.assign(mesh->num_vertices() + 1, 0);
   for (const std::array<int, 3>& t : cloud.triangles) {
     const std::array<int, 3> corners = {
@@ -44,10 +44,10 @@ void CollectTriangles(const PointCloud& cloud, FinishMesh* mesh) {
   }
 }
 
-void CollectEdges(const Surface& surface, FinishMesh* mesh) {
-  if (surface.cloud().HasTriangles()) {
+void CollectEdges(const PointCloud& cloud, const SurfaceTopology& topology, WeldedMesh* mesh) {
+  if (cloud.HasTriangles()) {
     for (int v = 0; v < mesh->num_vertices(); ++v) {
-      for (const SurfaceLink& link : surface.topology().Edges(mesh->point_of_vertex[v])) {
+      for (const SurfaceLink& link : topology.Edges(mesh->point_of_vertex[v])) {
         const int to = mesh->vertex_of_point[link.to];
         if (to > v) mesh->edges.emplace_back(v, to);
       }
@@ -55,7 +55,7 @@ void CollectEdges(const Surface& surface, FinishMesh* mesh) {
     return;
   }
   std::vector<Eigen::Vector3d> points;
-  for (const int point : mesh->point_of_vertex) points.push_back(surface.cloud().points[point]);
+  for (const int point : mesh->point_of_vertex) points.push_back(cloud.points[point]);
   const KdTree tree(points);
   std::vector<Neighbor> neighbors;
   for (int v = 0; v < mesh->num_vertices(); ++v) {
@@ -70,15 +70,15 @@ void CollectEdges(const Surface& surface, FinishMesh* mesh) {
 
 }  // namespace
 
-FinishMesh BuildFinishMesh(const Surface& surface) {
-  FinishMesh mesh;
-  NumberVertices(surface.topology(), &mesh);
-  CollectTriangles(surface.cloud(), &mesh);
-  CollectEdges(surface, &mesh);
+WeldedMesh BuildWeldedMesh(const PointCloud& cloud, const SurfaceTopology& topology) {
+  WeldedMesh mesh;
+  NumberVertices(topology, &mesh);
+  CollectTriangles(cloud, &mesh);
+  CollectEdges(cloud, topology, &mesh);
   return mesh;
 }
 
-Eigen::SparseMatrix<double> SquaredLaplacian(const FinishMesh& mesh) {
+Eigen::SparseMatrix<double> SquaredLaplacian(const WeldedMesh& mesh) {
   const int size = mesh.num_vertices();
   // Neighbours in ascending order, each vertex among its own.
   std::vector<int> offsets(size + 1, 0);
@@ -127,7 +127,7 @@ Eigen::SparseMatrix<double> SquaredLaplacian(const FinishMesh& mesh) {
   return matrix;
 }
 
-std::vector<Eigen::Vector3d> FinishNormals(const FinishMesh& mesh,
+std::vector<Eigen::Vector3d> WeldedNormals(const WeldedMesh& mesh,
                                            const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
   for (const std::array<int, 3>& t : mesh.triangles) {
