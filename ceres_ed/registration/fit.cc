@@ -4,7 +4,9 @@
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
+#include <ceres_ed/registration/finish_mesh.h>
 #include <ceres_ed/registration/fit_validation.h>
+#include <ceres_ed/registration/unfold.h>
 #include <ceres_ed/registration/vertex_finish.h>
 #include <ceres_ed/util/timer.h>
 
@@ -96,6 +98,10 @@ class Fitter {
   // Moves `fitted` (the source as the nodes have it) onto the target and fills in the warp's
   // finish.
   void FinishEveryVertex(const UnitFit& fit, const DeformationState& state, PointCloud* fitted);
+  // Lays faces of `fitted` flat that are folded, and adds that to the warp's finish.
+  void Unfold(const UnitFit& fit, PointCloud* fitted);
+  // Adds displacements (one a point, unit frame) to the warp's finish, and applies the warp anew.
+  void AddToFinish(const std::vector<Eigen::Vector3d>& displacements, PointCloud* fitted);
   void WarnAboutReflections(const DeformationState& state);
 
   const FitInput& input_;
@@ -160,21 +166,63 @@ void Fitter::FinishEveryVertex(const UnitFit& fit,
   input.matching = fit.options->matching;
   const FinishResult finish = FinishVertices(input, options_.finish_options);
   if (finish.moved) {
-    // What the finish adds, in the source frame.
-    const Similarity source_from_unit = (unit_from_target_ * result_.rigid).Inverse();
-    result_.warp.finish.points = input_.source.points;
-    for (std::size_t p = 0; p < moved.size(); ++p) {
-      const Eigen::Vector3d displacement = finish.points[p] - moved.points[p];
-      result_.warp.finish.displacements.push_back(source_from_unit.scale *
-                                                  (source_from_unit.rotation * displacement));
-    }
-    *fitted = input_.source;
-    const Status applied = ApplyWarp(result_.warp, result_.skinning, fitted, options_.num_threads);
-    CHECK(applied.ok()) << applied.message();
+    std::vector<Eigen::Vector3d> displacements = finish.points;
+    for (std::size_t p = 0; p < moved.size(); ++p) displacements[p] -= moved.points[p];
+    AddToFinish(displacements, fitted);
     result_.matches.rms_plane = finish.rms_plane;
     result_.matches.rms_point = finish.rms_point;
   }
   result_.times.finish = timer.Seconds();
+}
+
+void Fitter::AddToFinish(const std::vector<Eigen::Vector3d>& displacements, PointCloud* fitted) {
+  const Similarity source_from_unit = (unit_from_target_ * result_.rigid).Inverse();
+  VertexField& finish = result_.warp.finish;
+  finish.points = input_.source.points;
+  finish.displacements.resize(displacements.size(), Eigen::Vector3d::Zero());
+  for (std::size_t p = 0; p < displacements.size(); ++p) {
+    if (displacements[p].isZero(0.0)) continue;
+    finish.displacements[p] +=
+        source_from_unit.scale * (source_from_unit.rotation * displacements[p]);
+  }
+  *fitted = input_.source;
+  const Status applied = ApplyWarp(result_.warp, result_.skinning, fitted, options_.num_threads);
+  CHECK(applied.ok()) << applied.message();
+}
+
+void Fitter::Unfold(const UnitFit& fit, PointCloud* fitted) {
+  if (!fitted->HasTriangles()) return;
+  const Timer timer;
+  const FinishMesh mesh = BuildFinishMesh(*fit.source);
+  UnfoldInput input;
+  input.mesh = &mesh;
+  input.target = fit.target;
+  for (const auto* constraints : {&fit.landmarks, &fit.fixed}) {
+    for (const Correspondence& held : *constraints) {
+      input.held.push_back(mesh.vertex_of_point[held.point]);
+    }
+  }
+  std::vector<Eigen::Vector3d> rest;
+  std::vector<Eigen::Vector3d> before;
+  for (const int point : mesh.point_of_vertex) {
+    rest.push_back(fit.source->cloud().points[point]);
+    before.push_back(unit_from_target_ * fitted->points[point]);
+  }
+  input.rest = &rest;
+  std::vector<Eigen::Vector3d> after = before;
+  const UnfoldResult unfold = UnfoldFaces(input, &after);
+  result_.unfolded = unfold.before - unfold.after;
+  if (result_.unfolded > 0) {
+    std::vector<Eigen::Vector3d> displacements;
+    for (const int v : mesh.vertex_of_point) displacements.push_back(after[v] - before[v]);
+    AddToFinish(displacements, fitted);
+  }
+  if (unfold.after > 0) {
+    result_.warnings.push_back(std::to_string(unfold.after) + " of " +
+                               std::to_string(mesh.triangles.size()) +
+                               " faces stay folded over or squeezed flat");
+  }
+  result_.times.finish += timer.Seconds();
 }
 
 void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state) {
@@ -187,6 +235,7 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
   const auto finite = [](const Eigen::Vector3d& point) { return point.allFinite(); };
   if (std::all_of(fitted.points.begin(), fitted.points.end(), finite)) {
     FinishEveryVertex(fit, state, &fitted);
+    Unfold(fit, &fitted);
   }
   result_.points = std::move(fitted.points);
   result_.normals = std::move(fitted.normals);

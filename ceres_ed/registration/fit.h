@@ -140,6 +140,7 @@ struct FitTimes {
   double solve = 0.0;
   double level1 = 0.0;
   double level2 = 0.0;
+  // Of every vertex, unfolding included.
   double finish = 0.0;
 };
 
@@ -167,6 +168,8 @@ struct FitResult {
   double max_fixed_error = 0.0;
   // Standard deviation of the target's noise across its surface, in its unit.
   double noise = 0.0;
+  // Faces that were folded over and were laid flat in the end.
+  int unfolded = 0;
   FitTimes times;
   std::vector<std::string> warnings;
 
