@@ -4,7 +4,7 @@
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/fit_validation.h>
 #include <ceres_ed/registration/unfold.h>
 #include <ceres_ed/registration/vertex_finish.h>
@@ -193,7 +193,7 @@ void Fitter::AddToFinish(const std::vector<Eigen::Vector3d>& displacements, Poin
 void Fitter::Unfold(const UnitFit& fit, PointCloud* fitted) {
   if (!fitted->HasTriangles()) return;
   const Timer timer;
-  const FinishMesh mesh = BuildFinishMesh(*fit.source);
+  const WeldedMesh mesh = BuildWeldedMesh(fit.source->cloud(), fit.source->topology());
   UnfoldInput input;
   input.mesh = &mesh;
   input.target = fit.target;

@@ -69,7 +69,7 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& B) {
   return ((kappa + 1.0) * M + lambda * cofactors - M * (M.transpose() * M)) / zeta;
 }
 
-FoldFinder::FoldFinder(const FinishMesh& mesh, const std::vector<Eigen::Vector3d>& rest)
+FoldFinder::FoldFinder(const WeldedMesh& mesh, const std::vector<Eigen::Vector3d>& rest)
     : mesh_(mesh),
       rest_(rest),
       neighbor_offsets_(mesh.num_vertices() + 1, 0),

@@ -2,7 +2,7 @@
 #ifndef CERES_ED_REGISTRATION_FOLDED_FACES_H_
 #define CERES_ED_REGISTRATION_FOLDED_FACES_H_
 
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 
 #include <vector>
 
@@ -22,7 +22,7 @@ class FoldFinder {
  public:
   // `rest` has one point a vertex, in the unit of the points that are asked about. Both must
   // outlive the object.
-  FoldFinder(const FinishMesh& mesh, const std::vector<Eigen::Vector3d>& rest);
+  FoldFinder(const WeldedMesh& mesh, const std::vector<Eigen::Vector3d>& rest);
 
   // Those of `faces` that are folded, in their order.
   std::vector<int> Find(const std::vector<int>& faces, const std::vector<Eigen::Vector3d>& points);
@@ -50,7 +50,7 @@ class FoldFinder {
  private:
   bool IsSqueezed(int face, const std::vector<Eigen::Vector3d>& points) const;
 
-  const FinishMesh& mesh_;
+  const WeldedMesh& mesh_;
   const std::vector<Eigen::Vector3d>& rest_;
   std::vector<int> neighbor_offsets_;
   std::vector<int> neighbors_;

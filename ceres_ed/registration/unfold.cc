@@ -14,11 +14,11 @@ namespace ceres_ed {
 namespace {
 
 // Rings around a fold that are set free, one try after the other.
-constexpr int kRings[] = {1, 2, 3, 4, 5, 7};
+constexpr int kRings[] = {2, 3, 5};
 // Of a vertex to the target, against its edges. Without the target folds open more easily.
-constexpr double kPulls[] = {0.5, 0.1, 0.0};
+constexpr double kPulls[] = {0.1, 0.0};
 // Of a patch that is pulled: a larger one isn't worth its time.
-constexpr int kMaxPulledRings = 5;
+constexpr int kMaxPulledRings = 3;
 // In edges: what was farther from the target isn't pulled.
 constexpr double kMaxDistance = 1.0;
 // Of the normal that the vertex should have and the target's.
@@ -71,7 +71,7 @@ class Unfolder {
   void SolvePoints(const Points& start, double pull);
   void Relax(const Points& start, double pull, bool spread);
 
-  const FinishMesh& mesh_;
+  const WeldedMesh& mesh_;
   const Points& rest_;
   // Null: nothing pulls.
   const Surface* target_;
@@ -242,7 +242,7 @@ UnfoldResult Unfolder::Run() {
   result.after = result.before;
   if (folded.empty()) return result;
   const ScopedSerialLinearAlgebra serial;
-  rest_normals_ = FinishNormals(mesh_, rest_);
+  rest_normals_ = WeldedNormals(mesh_, rest_);
   double edges = 0.0;
   for (const auto& [a, b] : mesh_.edges) edges += (rest_[a] - rest_[b]).norm();
   max_distance_ = kMaxDistance * edges / static_cast<double>(mesh_.edges.size());

@@ -2,7 +2,8 @@
 #ifndef CERES_ED_REGISTRATION_UNFOLD_H_
 #define CERES_ED_REGISTRATION_UNFOLD_H_
 
-#include <ceres_ed/registration/finish_mesh.h>
+#include <ceres_ed/geometry/welded_mesh.h>
+#include <ceres_ed/registration/surface.h>
 
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace ceres_ed {
 
 // What is unfolded; all in one frame and unit. The pointers must outlive the call.
 struct UnfoldInput {
-  const FinishMesh* mesh = nullptr;
+  const WeldedMesh* mesh = nullptr;
   // One point a vertex, as those that are unfolded.
   const std::vector<Eigen::Vector3d>* rest = nullptr;
   // Vertices that don't move.

@@ -32,12 +32,20 @@ std::vector<int> All(const PointCloud& cloud) {
   return indices;
 }
 
-Matches MatchAtRest(const Surface& source, const Surface& target, const MatchingOptions& options) {
-  return MatchBothWays({&source, &source.cloud().points, &source.cloud().normals},
-                       All(source.cloud()),
+// Matches all points of a source where they are with some of a target.
+Matches MatchAtRest(const Surface& source,
+                    const Surface& target,
+                    const std::vector<int>& target_samples,
+                    const MatchingOptions& options) {
+  const std::vector<int> all = All(source.cloud());
+  return MatchBothWays({&source, &all, &source.cloud().points, &source.cloud().normals},
                        target,
-                       All(target.cloud()),
+                       target_samples,
                        options);
+}
+
+Matches MatchAtRest(const Surface& source, const Surface& target, const MatchingOptions& options) {
+  return MatchAtRest(source, target, All(target.cloud()), options);
 }
 
 TEST(Matching, FindsTheFootOfThePerpendicularBothWays) {
@@ -100,21 +108,11 @@ TEST(Matching, RejectsWhatIsTooFar) {
   };
   options = MatchingOptions();
   options.max_deviations = 3.0;
-  const Matches by_deviation =
-      MatchBothWays({&bent_source, &bent_source.cloud().points, &bent_source.cloud().normals},
-                    All(bent_source.cloud()),
-                    target,
-                    {},
-                    options);
+  const Matches by_deviation = MatchAtRest(bent_source, target, std::vector<int>(), options);
   EXPECT_FALSE(has_point_5(by_deviation));
   EXPECT_EQ(by_deviation.inliers, 15);
   options.resolution = 2.5;
-  EXPECT_TRUE(has_point_5(
-      MatchBothWays({&bent_source, &bent_source.cloud().points, &bent_source.cloud().normals},
-                    All(bent_source.cloud()),
-                    target,
-                    {},
-                    options)));
+  EXPECT_TRUE(has_point_5(MatchAtRest(bent_source, target, std::vector<int>(), options)));
 }
 
 // Random points on the unit sphere with their normals.
@@ -156,49 +154,62 @@ TEST(Matching, TakesThatNormalUpToSignWhereSignsAreUnknown) {
   EXPECT_LT(matches.rms_plane, 1e-12);
 }
 
-// The pair of one target point that faces +z with a source grid in z = 0.
-Matches MatchBack(const Eigen::Vector3d& target_point) {
-  const Surface source(MakeGrid(7, 7, {0.0, 0.0, 0.0}));
+// The pairs of one target point that faces +z with a source grid in z = 0, no farther apart than
+// `reach` as the matching measures it.
+Matches MatchBack(const Eigen::Vector3d& target_point, double reach) {
   PointCloud cloud;
   cloud.points = {target_point};
   cloud.normals = {Eigen::Vector3d::UnitZ()};
-  const Surface target(cloud);
-  return MatchBothWays({&source, &source.cloud().points, &source.cloud().normals},
-                       {},
-                       target,
-                       {0},
-                       MatchingOptions());
+  MatchingOptions options;
+  options.max_deviations = 1e-9;
+  options.resolution = reach;
+  return MatchAtRest(Surface(MakeGrid(7, 7, {0.0, 0.0, 0.0})), Surface(cloud), {0}, options);
 }
 
-TEST(Matching, CountsATargetPointWithinTheDiscOfASourcePointAsFacingIt) {
-  // An inner point stands for an area of 1, a disc of radius 0.56.
+TEST(Matching, CountsNoDistanceWithinTheDiscOfASourcePoint) {
+  // An inner point stands for an area of 1, a disc of radius 0.56; (0.3, 0.4) is within.
   for (const double height : {0.0, 0.2}) {
-    const Matches matches = MatchBack({3.3, 3.4, height});
+    EXPECT_EQ(MatchBack({3.3, 3.4, height}, height - 1e-6).inliers, 0);
+    const Matches matches = MatchBack({3.3, 3.4, height}, height + 1e-6);
     ASSERT_EQ(matches.inliers, 1);
-    const Correspondence& match = matches.correspondences[0];
-    EXPECT_EQ(match.point, 3 * 7 + 3);
-    EXPECT_LT((match.target - Eigen::Vector3d(3.0, 3.0, height)).norm(), 1e-12);
-    EXPECT_NEAR(matches.rms_point, height, 1e-12);
+    EXPECT_EQ(matches.correspondences[0].point, 3 * 7 + 3);
+    // The symmetric plane goes through the target point itself.
+    EXPECT_LT((matches.correspondences[0].target - Eigen::Vector3d(3.3, 3.4, height)).norm(),
+              1e-12);
     EXPECT_NEAR(matches.rms_plane, height, 1e-12);
   }
 }
 
-TEST(Matching, CountsATargetPointBeyondTheDiscFromItsRim) {
+TEST(Matching, CountsTheDistanceBeyondThatDiscFromItsRim) {
   // In the middle of a cell, sqrt(1/2) from its corners.
-  const Matches matches = MatchBack({3.5, 3.5, 0.0});
-  ASSERT_EQ(matches.inliers, 1);
-  EXPECT_NEAR(matches.rms_point, std::sqrt(0.5) - std::sqrt(1.0 / M_PI), 1e-12);
-  EXPECT_NEAR(matches.rms_plane, 0.0, 1e-12);
+  const double distance = std::sqrt(0.5) - std::sqrt(1.0 / M_PI);
+  EXPECT_EQ(MatchBack({3.5, 3.5, 0.0}, distance - 1e-6).inliers, 0);
+  EXPECT_EQ(MatchBack({3.5, 3.5, 0.0}, distance + 1e-6).inliers, 1);
+}
+
+TEST(Matching, FindsTheSameWithTheMemoryOfOtherPlaces) {
+  const Surface source(MakeBareSphere(150, 1));
+  const Surface target(MakeBareSphere(150, 2));
+  std::vector<Eigen::Vector3d> moved = source.cloud().points;
+  for (Eigen::Vector3d& point : moved) point += Eigen::Vector3d(0.3, -0.1, 0.2) * point.x();
+  const std::vector<int> all = All(source.cloud());
+  const MovedSource before{&source, &all, &source.cloud().points, &source.cloud().normals};
+  const MovedSource after{&source, &all, &moved, &source.cloud().normals};
+  MatchMemory memory;
+  MatchBothWays(before, target, all, MatchingOptions(), &memory);
+  const Matches with = MatchBothWays(after, target, all, MatchingOptions(), &memory);
+  const Matches without = MatchBothWays(after, target, all, MatchingOptions());
+  ASSERT_EQ(with.inliers, without.inliers);
+  for (int i = 0; i < with.inliers; ++i) {
+    EXPECT_EQ(with.correspondences[i].point, without.correspondences[i].point);
+    EXPECT_EQ(with.correspondences[i].target, without.correspondences[i].target);
+  }
 }
 
 TEST(Matching, WeighsEachDirectionByAreaToAtMostOne) {
   const Surface source(MakeGrid(6, 6, {1.3, 1.3, 0.1}));
   const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
-  const Matches forward = MatchBothWays({&source, &source.cloud().points, &source.cloud().normals},
-                                        All(source.cloud()),
-                                        target,
-                                        {},
-                                        MatchingOptions());
+  const Matches forward = MatchAtRest(source, target, std::vector<int>(), MatchingOptions());
   double sum = 0.0;
   for (const Correspondence& match : forward.correspondences) sum += match.weight;
   EXPECT_NEAR(sum, 1.0, 1e-12);
@@ -208,17 +219,17 @@ TEST(Matching, WeighsEachDirectionByAreaToAtMostOne) {
 
 TEST(Matching, UnmatchedShareIsZeroOnACopyAndOneOutOfReach) {
   const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
-  const MovedSource same{&target, &target.cloud().points, &target.cloud().normals};
   const std::vector<int> all = All(target.cloud());
-  EXPECT_NEAR(UnmatchedShare(same, all, target, all, 0.1, MatchingOptions()), 0.0, 1e-12);
+  const MovedSource same{&target, &all, &target.cloud().points, &target.cloud().normals};
+  EXPECT_NEAR(UnmatchedShare(same, target, all, 0.1, MatchingOptions()), 0.0, 1e-12);
   std::vector<Eigen::Vector3d> lifted = target.cloud().points;
   for (Eigen::Vector3d& point : lifted) point.z() += 0.1;
-  const MovedSource above{&target, &lifted, &target.cloud().normals};
+  const MovedSource above{&target, &all, &lifted, &target.cloud().normals};
   // d = width: d^2 / (d^2 + width^2) = 1 / 2.
-  EXPECT_NEAR(UnmatchedShare(above, all, target, all, 0.1, MatchingOptions()), 0.5, 1e-9);
+  EXPECT_NEAR(UnmatchedShare(above, target, all, 0.1, MatchingOptions()), 0.5, 1e-9);
   MatchingOptions near;
   near.max_distance = 0.01;
-  EXPECT_EQ(UnmatchedShare(above, all, target, all, 0.1, near), 1.0);
+  EXPECT_EQ(UnmatchedShare(above, target, all, 0.1, near), 1.0);
 }
 
 TEST(Matching, IsTheSameOnTwoThreads) {

@@ -19,7 +19,7 @@ namespace {
 using Points = std::vector<Eigen::Vector3d>;
 
 // By SVD, with every pair of the triangles' corners as an edge once.
-std::vector<Eigen::Matrix3d> RotationsBySvd(const FinishMesh& mesh,
+std::vector<Eigen::Matrix3d> RotationsBySvd(const WeldedMesh& mesh,
                                             const Points& rest,
                                             const Points& points) {
   std::set<std::pair<int, int>> edges;
@@ -41,7 +41,7 @@ std::vector<Eigen::Matrix3d> RotationsBySvd(const FinishMesh& mesh,
 }
 
 // Faces turned over, and no face below 5 % of its area unless its surroundings are, too.
-std::vector<int> FoldedByBruteForce(const FinishMesh& mesh,
+std::vector<int> FoldedByBruteForce(const WeldedMesh& mesh,
                                     const Points& rest,
                                     const Points& points) {
   const std::vector<Eigen::Matrix3d> R = RotationsBySvd(mesh, rest, points);
@@ -93,7 +93,7 @@ class Unfold : public ::testing::Test {
   }
 
   const Surface surface_{MakeSphereMesh(4)};
-  const FinishMesh mesh_ = BuildFinishMesh(surface_);
+  const WeldedMesh mesh_ = BuildWeldedMesh(surface_.cloud(), surface_.topology());
   const Points rest_ = surface_.cloud().points;
   Points truth_;
   Points folded_;
@@ -186,7 +186,7 @@ TEST_F(Unfold, GivesTheSameBitsAgain) {
 TEST_F(Unfold, UnfoldsAPieceThatIsAllFolded) {
   // Two triangles, one folded onto the other: nothing around holds them.
   const Surface pair(MakeGridMesh(2, 2));
-  const FinishMesh mesh = BuildFinishMesh(pair);
+  const WeldedMesh mesh = BuildWeldedMesh(pair.cloud(), pair.topology());
   const Points rest = pair.cloud().points;
   Points points = rest;
   points[0] = rest[3] + Eigen::Vector3d(0.1, 0.2, 0.0);
@@ -202,7 +202,7 @@ TEST_F(Unfold, UnfoldsAPieceThatIsAllFolded) {
 TEST_F(Unfold, HasNothingToDoWithBarePoints) {
   PointCloud bare = surface_.cloud();
   bare.triangles.clear();
-  const FinishMesh mesh = BuildFinishMesh(Surface(bare));
+  const WeldedMesh mesh = BuildWeldedMesh(bare, BuildTopology(bare));
   input_.mesh = &mesh;
   Points points = folded_;
   EXPECT_EQ(UnfoldFaces(input_, &points).before, 0);
