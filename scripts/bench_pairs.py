@@ -14,8 +14,8 @@ Errors are means in percent of the diagonal of the target's bounding box, as ed_
             visible.txt) target to result alone
   trimmed   the same of the nearest 80 %: what is missing in one of both does not spoil it
   target    target to result alone
-Edge p99 is the change of edge length that 1 % of the edges exceed, flips are flipped triangles; the
-columns after them say the same of the truth. MB is the most memory that ed_fit had at a time.
+Edge p99 is the change of edge length that 1 % of the edges exceed, flips are flipped triangles; true
+p99 and true flips are what the truth has of them. MB is the most memory that ed_fit had at a time.
 Exits with 1 when a run fails or two runs of one variant differ, with 2 on a wrong call.
 
   scripts/bench_pairs.py

@@ -11,8 +11,8 @@ BEGIN, END = "<!-- bench_pairs.py: begin -->", "<!-- bench_pairs.py: end -->"
 COLUMNS = [
     ("pair", "pair", None), ("nothing", "nothing %", 2), ("rigid", "rigid %", 2),
     ("truth", "truth %", 3), ("surface", "surface %", 3), ("trimmed", "trimmed %", 3),
-    ("backward", "target %", 3), ("edge_p99", "edge p99 %", 1), ("truth_edge_p99", "truth", 1),
-    ("flipped", "flips", 0), ("truth_flipped", "truth", 0), ("time_s", "time s", 2),
+    ("backward", "target %", 3), ("edge_p99", "edge p99 %", 1), ("truth_edge_p99", "true p99 %", 1),
+    ("flipped", "flips", 0), ("truth_flipped", "true flips", 0), ("time_s", "time s", 2),
     ("wall_s", "wall s", 2), ("cpu_s", "cpu s", 2), ("memory_mb", "MB", 0),
     ("nodes", "nodes", 0), ("inliers", "inliers", 0),
 ]

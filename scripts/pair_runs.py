@@ -181,8 +181,9 @@ def summarise(runs, pair, ed_eval, result, work):
     row["backward"] = evaluation["backward"]["mean_percent"]
     # Of a partial target most of the result has no counterpart.
     row["partial"] = pair.partial
-    row["surface"] = row["backward"] if pair.partial else evaluation["symmetric"]["mean_percent"]
-    row["trimmed"] = 100.0 * evaluation["symmetric"]["trimmed"] / evaluation["diagonal"]
+    surface = evaluation["backward" if pair.partial else "symmetric"]
+    row["surface"] = surface["mean_percent"]
+    row["trimmed"] = 100.0 * surface["trimmed"] / evaluation["diagonal"]
     row["edge_p99"], row["flipped"] = 100.0 * shape["edge_p99"], shape["flipped"]
     row["truth"] = evaluation["truth"]["mean_percent"] if pair.truth else None
     return row
