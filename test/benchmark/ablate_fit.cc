@@ -62,7 +62,7 @@ constexpr Ingredient kIngredients[] = {
      "a noisy target is followed as softly as a clean one",
      [](FitOptions* options) { options->schedule.noise_stiffness = 0.0; }},
     {"denoising",
-     "a noisy target is followed as it is",
+     "a noisy target is followed as it is, as if it were clean",
      [](FitOptions* options) { options->denoise = false; }},
     {"symmetric_normals",
      "planes have the target's normals alone while nodes move",
@@ -74,7 +74,7 @@ constexpr Ingredient kIngredients[] = {
        options->careful_angle_deg = 180.0;
      }},
     {"border_test",
-     "pairs on borders are believed",
+     "pairs on borders are believed while nodes move",
      [](FitOptions* options) { options->matching.reject_borders = false; }},
     {"distance_test",
      "pairs are believed however far apart",
