@@ -1,4 +1,4 @@
-"""The tables of bench_pairs.py: on the terminal and in README.md."""
+"""The tables of bench_pairs.py: on the terminal and in README.md; and how pages are filled."""
 import csv
 import sys
 from pathlib import Path
@@ -11,7 +11,8 @@ BEGIN, END = "<!-- bench_pairs.py: begin -->", "<!-- bench_pairs.py: end -->"
 COLUMNS = [
     ("pair", "pair", None), ("nothing", "nothing %", 2), ("rigid", "rigid %", 2),
     ("truth", "truth %", 3), ("surface", "surface %", 3), ("trimmed", "trimmed %", 3),
-    ("backward", "target %", 3), ("edge_p99", "edge p99 %", 1), ("flipped", "flips", 0), ("time_s", "time s", 2),
+    ("backward", "target %", 3), ("edge_p99", "edge p99 %", 1), ("truth_edge_p99", "true p99 %", 1),
+    ("flipped", "flips", 0), ("truth_flipped", "true flips", 0), ("time_s", "time s", 2),
     ("wall_s", "wall s", 2), ("cpu_s", "cpu s", 2), ("memory_mb", "MB", 0),
     ("nodes", "nodes", 0), ("inliers", "inliers", 0),
 ]
@@ -95,10 +96,20 @@ def markdown(rows):
     return "\n".join(lines)
 
 
+def check_marks(path, begin, end):
+    """Ends the program where the file at `path` doesn't have both marks once; returns its text."""
+    page = Path(path).read_text()
+    if page.count(begin) != 1 or page.count(end) != 1:
+        sys.exit(f"{Path(sys.argv[0]).name}: {path} lacks the marks {begin} and {end}")
+    return page
+
+
+def write_between(path, begin, end, text):
+    """Puts `text` between the two marks of the file at `path`."""
+    page = check_marks(path, begin, end)
+    head, tail = page.split(begin)[0], page.split(end)[1]
+    Path(path).write_text(f"{head}{begin}\n{text}\n{end}{tail}")
+
+
 def write_readme(path, rows):
-    """Puts the tables between the two marks of `path`."""
-    text = Path(path).read_text()
-    if text.count(BEGIN) != 1 or text.count(END) != 1:
-        sys.exit(f"bench_pairs.py: {path} lacks the marks {BEGIN} and {END}")
-    head, tail = text.split(BEGIN)[0], text.split(END)[1]
-    Path(path).write_text(f"{head}{BEGIN}\n{markdown(rows)}\n{END}{tail}")
+    write_between(path, BEGIN, END, markdown(rows))

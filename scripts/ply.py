@@ -1,4 +1,4 @@
-"""Reads the PLY files that the programs and data/ hold. Needs numpy."""
+"""Reads and writes the PLY files that the programs and data/ hold. Needs numpy."""
 import numpy as np
 
 _TYPES = {
@@ -72,3 +72,26 @@ def triangles(ply):
         return np.zeros((0, 3), int)
     name = next(n for n in face.dtype.names if n in ("vertex_indices", "vertex_index"))
     return face[name].astype(int)
+
+
+def write_ply(path, points, triangles):
+    """Writes a binary PLY of N x 3 points, as floats, and M x 3 triangles."""
+    face = np.zeros(len(triangles), [("count", "u1"), ("indices", "<i4", (3,))])
+    face["count"], face["indices"] = 3, triangles
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {len(points)}",
+              *(f"property float {axis}" for axis in "xyz"), f"element face {len(triangles)}",
+              "property list uchar int vertex_indices", "end_header", ""]
+    with open(path, "wb") as file:
+        file.write("\n".join(header).encode() + points.astype("<f4").tobytes() + face.tobytes())
+
+
+def subdivide(points, triangles):
+    """Returns points and triangles with a point amid every edge: four triangles for each."""
+    sides = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]],
+                                    triangles[:, [2, 0]]]), axis=1)
+    edges, of_side = np.unique(sides, axis=0, return_inverse=True)
+    ab, bc, ca = (len(points) + of_side).reshape(3, -1)
+    a, b, c = triangles.T
+    finer = np.concatenate([np.stack(corners, axis=1) for corners in
+                            ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    return np.concatenate([points, 0.5 * (points[edges[:, 0]] + points[edges[:, 1]])]), finer
