@@ -191,7 +191,7 @@ void Fitter::AddToFinish(const std::vector<Eigen::Vector3d>& displacements, Poin
 }
 
 void Fitter::Unfold(const UnitFit& fit, PointCloud* fitted) {
-  if (!fitted->HasTriangles()) return;
+  if (!options_.unfold || !fitted->HasTriangles()) return;
   const Timer timer;
   const WeldedMesh mesh = BuildWeldedMesh(fit.source->cloud(), fit.source->topology());
   UnfoldInput input;
@@ -279,8 +279,11 @@ StatusOr<FitResult> Fitter::Run() {
                                        options_.num_threads);
     noise = FinishNoise(source, *target);
     result_.noise = noise / unit_from_target_.scale;
-    Denoised denoised = Denoise(*target, options_.denoise ? noise : 0.0);
-    noise = denoised.noise;
+    Denoised denoised;
+    if (options_.denoise) {
+      denoised = Denoise(*target, noise);
+      noise = denoised.noise;
+    }
     if (denoised.length > 0.0) {
       target = std::make_unique<Surface>(std::move(denoised.cloud), options_.num_threads);
     }

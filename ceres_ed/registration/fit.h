@@ -63,9 +63,9 @@ struct FitSchedule {
   double initial_stiffness = 100.0;
   // What a clean target ends with, > 0 and at most the initial one.
   double final_stiffness = 0.03;
-  // Noise adds to both ends: this times the square of its standard deviation (what smoothing leaves
-  // of it) in hundredths of the source's diagonal, >= 0.
-  double noise_stiffness = 1000.0;
+  // Noise adds to both ends: this times the cube of its standard deviation (what smoothing leaves
+  // of it) in hundredths of the source's diagonal, >= 0. Weak noise averages out by itself.
+  double noise_stiffness = 3000.0;
   // Steps of stiffness on the coarser levels together, and on the last one, >= 1.
   int coarse_steps = 4;
   int fine_steps = 3;
@@ -119,6 +119,8 @@ struct FitOptions {
   // where the fit is stopped early, nor where the noise is larger than what is left.
   bool finish = true;
   FinishOptions finish_options;
+  // Lay faces flat again that the fit folded over.
+  bool unfold = true;
   // The result doesn't depend on it, >= 1.
   int num_threads = 1;
   // Wall time of the whole fit, seconds, > 0.

@@ -174,7 +174,7 @@ void NonrigidLoop::Run() {
 std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
   const FitOptions& options = *fit.options;
   const FitSchedule& schedule = options.schedule;
-  const double of_noise = schedule.noise_stiffness * std::pow(kPerLength * fit.noise, 2);
+  const double of_noise = schedule.noise_stiffness * std::pow(kPerLength * fit.noise, 3);
   const double initial_stiffness =
       fit.target != nullptr ? schedule.initial_stiffness + of_noise : 1.0;
   const double final_stiffness = fit.target != nullptr ? schedule.final_stiffness + of_noise : 1.0;
