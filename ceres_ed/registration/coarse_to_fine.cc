@@ -13,6 +13,7 @@ namespace {
 
 // Distance, as a fraction of the source's diagonal, at which a point counts half as missed.
 constexpr double kMissedWidth = 0.02;
+constexpr double kNothingMissed = 0.01;
 
 // The state of other nodes, at some of the source's points, under the warp of `graph`.
 DeformationState CarryOver(const BuiltGraph& graph,
@@ -68,10 +69,10 @@ Status CoarseToFine::RunLevel(
   return Status::Ok();
 }
 
-double CoarseToFine::MissedShare(int level, const DeformationState& state) const {
+Unmatched CoarseToFine::Missed(int level, const DeformationState& state) const {
   MovingSamples moving(*fit_.source, graphs_[level], kMinCoarseSamples);
   moving.Move(state, fit_.options->num_threads);
-  return UnmatchedShare(moving.Moved(),
+  return FindUnmatched(moving.Moved(),
                         *fit_.target,
                         SamplePoints(*fit_.target, kMinCoarseSamples),
                         kMissedWidth,
@@ -107,9 +108,10 @@ Status CoarseToFine::Run(FitResult* result) {
       if (EndedEarly(*result)) break;
     }
     const int reached = std::min(level, last - 1);
-    const double missed = fit_.target != nullptr ? MissedShare(reached, state) : 0.0;
-    if (missed < best_missed) {
-      best_missed = missed;
+    const Unmatched missed =
+        fit_.target != nullptr ? Missed(reached, state) : Unmatched{0.0, 0.0};
+    if (missed.Mean() < best_missed) {
+      best_missed = missed.Mean();
       loss_width = ways[i].loss_width;
       start = reached;
       state_ = std::move(state);
@@ -118,6 +120,8 @@ Status CoarseToFine::Run(FitResult* result) {
       graph_ = start;
       return Status::Ok();
     }
+    // All of what the smaller surface shows is explained: another way could only do the same.
+    if (std::min(missed.source, missed.target) < kNothingMissed) break;
   }
   graph_ = last;
   LevelPlan plan = plans[last];

@@ -3,6 +3,7 @@
 #define CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
 
 #include <ceres_ed/registration/fit.h>
+#include <ceres_ed/registration/matching.h>
 #include <ceres_ed/registration/nonrigid_loop.h>
 #include <ceres_ed/registration/unit_fit.h>
 
@@ -32,7 +33,7 @@ class CoarseToFine {
   // Runs one level with `loss_width`, from `state` over graph `from` (-1: at rest).
   Status RunLevel(
       int level, const LevelPlan& plan, int from, DeformationState* state, FitResult* result) const;
-  double MissedShare(int level, const DeformationState& state) const;
+  Unmatched Missed(int level, const DeformationState& state) const;
 
   UnitFit fit_;
   // Coarse to fine.

@@ -71,6 +71,8 @@ struct FitSchedule {
   int fine_steps = 3;
   // Rounds of matching and solving in each step, >= 1; fewer where the surface stands still.
   int max_rounds = 6;
+  // The same on the coarser levels.
+  int coarse_rounds = 4;
   // Mean motion of the source in a round, as a fraction of its diagonal, that counts as standing
   // still, > 0.
   double tolerance = 2e-4;

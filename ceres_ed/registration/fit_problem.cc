@@ -8,24 +8,27 @@ namespace {
 
 // Distances count in hundredths of the source's diagonal.
 constexpr double kPerSquaredLength = 1e4;
+// Of the correspondences that point-to-point sees.
+constexpr int kThinning = 4;
 
 }  // namespace
 
 FitProblem::FitProblem(const BuiltGraph& graph, const std::vector<Eigen::Vector3d>& points)
     : graph_(graph), points_(points), builder_(graph.graph, /*has_camera=*/false) {}
 
-EnergyContext FitProblem::Context(const std::vector<Correspondence>& landmarks) const {
+EnergyContext FitProblem::Context(const Term& term,
+                                  const std::vector<Correspondence>& landmarks) const {
   EnergyContext context;
   context.graph = &graph_.graph;
   context.points = &points_;
   context.skinning = &graph_.skinning;
-  context.correspondences = &correspondences_;
+  context.correspondences = term.rule.thinned ? &thinned_ : &correspondences_;
   context.landmarks = &landmarks;
   return context;
 }
 
 void FitProblem::Collect(const Term& term, const std::vector<Correspondence>& landmarks) {
-  builder_.CollectResiduals(term.index, *term.energy, Context(landmarks));
+  builder_.CollectResiduals(term.index, *term.energy, Context(term, landmarks));
 }
 
 void FitProblem::ApplyWeight(const Term& term) {
@@ -70,6 +73,9 @@ Status FitProblem::AddEnergies(const FitOptions& options,
   TermRule data{kPerSquaredLength};
   data.matched = true;
   data.adaptive_loss = true;
+  // Holds the surface along itself, which takes no more than a few.
+  TermRule few_data = data;
+  few_data.thinned = true;
   TermRule given{kPerSquaredLength};
   given.per_residual = true;
 
@@ -91,7 +97,7 @@ Status FitProblem::AddEnergies(const FitOptions& options,
        {"point_to_plane", weights.data - point_weight, {}, {}},
        &landmarks_,
        data},
-      {"point_to_point", {"point_to_point", point_weight, {}, {}}, &landmarks_, data}};
+      {"point_to_point", {"point_to_point", point_weight, {}, {}}, &landmarks_, few_data}};
   if (!landmarks.empty()) {
     planned.push_back({"landmark", {"landmark", weights.landmark, {}, {}}, &landmarks_, given});
   }
@@ -126,6 +132,11 @@ void FitProblem::SetStiffness(double stiffness) {
 void FitProblem::SetCorrespondences(std::vector<Correspondence> correspondences,
                                     double loss_width) {
   correspondences_ = std::move(correspondences);
+  thinned_.clear();
+  for (std::size_t i = 0; i < correspondences_.size(); i += kThinning) {
+    thinned_.push_back(correspondences_[i]);
+    thinned_.back().weight *= kThinning;
+  }
   for (const Term& term : terms_) {
     if (!term.rule.matched) continue;
     if (term.rule.adaptive_loss) builder_.SetLoss(term.index, {loss_, loss_width});

@@ -44,6 +44,8 @@ class FitProblem {
     bool stiff = false;
     // Collect anew when the correspondences change.
     bool matched = false;
+    // Collect a part of the correspondences alone, with their weights raised.
+    bool thinned = false;
     // Give the data loss, with the width that SetCorrespondences asks for.
     bool adaptive_loss = false;
   };
@@ -59,7 +61,7 @@ class FitProblem {
                  const EnergySpec& spec,
                  const std::vector<Correspondence>& landmarks,
                  const TermRule& rule);
-  EnergyContext Context(const std::vector<Correspondence>& landmarks) const;
+  EnergyContext Context(const Term& term, const std::vector<Correspondence>& landmarks) const;
   void Collect(const Term& term, const std::vector<Correspondence>& landmarks);
   void ApplyWeight(const Term& term);
 
@@ -68,6 +70,7 @@ class FitProblem {
   ProblemBuilder builder_;
   std::vector<Term> terms_;
   std::vector<Correspondence> correspondences_;
+  std::vector<Correspondence> thinned_;
   std::vector<Correspondence> landmarks_;
   LossType loss_ = LossType::kSquared;
   double stiffness_ = 1.0;

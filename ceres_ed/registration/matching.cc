@@ -220,21 +220,25 @@ Matches MatchBothWays(const MovedSource& source,
   return matches;
 }
 
-double UnmatchedShare(const MovedSource& source,
-                      const Surface& target,
-                      const std::vector<int>& target_samples,
-                      double width,
-                      const MatchingOptions& options) {
+Unmatched FindUnmatched(const MovedSource& source,
+                        const Surface& target,
+                        const std::vector<int>& target_samples,
+                        double width,
+                        const MatchingOptions& options) {
   const std::vector<Candidate> candidates =
       FindCandidates(source, target, target_samples, options, nullptr);
-  double sum = 0.0;
-  for (const Candidate& candidate : candidates) {
-    const double squared = candidate.distance * candidate.distance;
-    sum += candidate.match.point >= 0 && candidate.normals_agree
-               ? squared / (squared + width * width)
-               : 1.0;
-  }
-  return candidates.empty() ? 1.0 : sum / static_cast<double>(candidates.size());
+  const auto share = [&](std::size_t begin, std::size_t end) {
+    double sum = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double squared = candidates[i].distance * candidates[i].distance;
+      sum += candidates[i].match.point >= 0 && candidates[i].normals_agree
+                 ? squared / (squared + width * width)
+                 : 1.0;
+    }
+    return begin == end ? 1.0 : sum / static_cast<double>(end - begin);
+  };
+  const std::size_t middle = source.samples->size();
+  return {share(0, middle), share(middle, candidates.size())};
 }
 
 }  // namespace ceres_ed

@@ -78,13 +78,21 @@ Matches MatchBothWays(const MovedSource& source,
                       const MatchingOptions& options,
                       MatchMemory* memory = nullptr);
 
-// How much of the two surfaces is left unmatched, in [0, 1]: the mean over all samples of
-// d^2 / (d^2 + width^2), with 1 where there is no closest point or the normals disagree.
-double UnmatchedShare(const MovedSource& source,
-                      const Surface& target,
-                      const std::vector<int>& target_samples,
-                      double width,
-                      const MatchingOptions& options);
+// How much of each surface is left unmatched, in [0, 1].
+struct Unmatched {
+  double source = 1.0;
+  double target = 1.0;
+
+  double Mean() const { return 0.5 * (source + target); }
+};
+
+// The mean over the samples of each surface of d^2 / (d^2 + width^2), with 1 where there is no
+// closest point or the normals disagree; 1 without samples.
+Unmatched FindUnmatched(const MovedSource& source,
+                        const Surface& target,
+                        const std::vector<int>& target_samples,
+                        double width,
+                        const MatchingOptions& options);
 
 }  // namespace ceres_ed
 

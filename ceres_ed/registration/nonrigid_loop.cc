@@ -9,7 +9,7 @@
 namespace ceres_ed {
 namespace {
 
-constexpr int kPatientIterations = 10;
+constexpr int kPatientIterations = 3;
 // Noise counts in hundredths of the source's diagonal.
 constexpr double kPerLength = 100.0;
 
@@ -153,9 +153,9 @@ void NonrigidLoop::Run() {
     stiffness_ =
         plan_.first_stiffness * std::pow(plan_.last_stiffness / plan_.first_stiffness, part);
     problem_->SetStiffness(stiffness_);
-    for (int round = 0; round < schedule.max_rounds; ++round) {
+    for (int round = 0; round < plan_.max_rounds; ++round) {
       outcome = RunRound(schedule.solver_iterations);
-      const double done = (step + double(round + 1) / schedule.max_rounds) / plan_.steps;
+      const double done = (step + double(round + 1) / plan_.max_rounds) / plan_.steps;
       Report(plan_.progress_begin + done * (plan_.progress_end - plan_.progress_begin));
       if (outcome != RoundOutcome::kMoving) break;
     }
@@ -192,6 +192,7 @@ std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
     const bool last = level == coarse_levels;
     plan.max_angle_deg = options.matching.max_angle_deg;
     plan.is_last = last;
+    plan.max_rounds = last ? schedule.max_rounds : schedule.coarse_rounds;
     plan.steps = last ? schedule.fine_steps : coarse_steps;
     plan.loss_width = last ? options.loss_width : options.careful_loss_width;
     plan.first_stiffness = stiffness;

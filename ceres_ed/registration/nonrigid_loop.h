@@ -16,6 +16,7 @@ struct LevelPlan {
   double first_stiffness = 1.0;
   double last_stiffness = 1.0;
   int steps = 1;
+  int max_rounds = 1;
   // The others end before anyone asks for their energies.
   bool is_last = true;
   // Of the data loss, as a multiple of the robust standard deviation of the residuals.

@@ -20,13 +20,16 @@ class BatchStrategy final : public Strategy {
                      const SolverOptions& options,
                      DeformationState* state) override {
     SolveSummary summary;
-    summary.initial_energy = builder.Evaluate(*state).Total();
-    solver_->Solve(builder,
-                   FullConfig(builder.graph().num_nodes(), builder.has_camera()),
-                   options,
-                   state,
-                   &summary);
-    summary.final_energy = builder.Evaluate(*state).Total();
+    const ProblemConfig full = FullConfig(builder.graph().num_nodes(), builder.has_camera());
+    if (solver_->Solve(builder, full, options, state, &summary) &&
+        summary.levels.back().num_variable_nodes > 0) {
+      // Every residual touches something variable: the level has them all.
+      summary.initial_energy = summary.levels.back().initial_cost;
+      summary.final_energy = summary.levels.back().final_cost;
+    } else {
+      summary.initial_energy = builder.Evaluate(*state).Total();
+      summary.final_energy = summary.initial_energy;
+    }
     return summary;
   }
 

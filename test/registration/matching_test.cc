@@ -217,19 +217,19 @@ TEST(Matching, WeighsEachDirectionByAreaToAtMostOne) {
   EXPECT_LT(source.relative_areas()[0], source.relative_areas()[7]);
 }
 
-TEST(Matching, UnmatchedShareIsZeroOnACopyAndOneOutOfReach) {
+TEST(Matching, NothingIsUnmatchedOnACopyAndAllOutOfReach) {
   const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
   const std::vector<int> all = All(target.cloud());
   const MovedSource same{&target, &all, &target.cloud().points, &target.cloud().normals};
-  EXPECT_NEAR(UnmatchedShare(same, target, all, 0.1, MatchingOptions()), 0.0, 1e-12);
+  EXPECT_NEAR(FindUnmatched(same, target, all, 0.1, MatchingOptions()).Mean(), 0.0, 1e-12);
   std::vector<Eigen::Vector3d> lifted = target.cloud().points;
   for (Eigen::Vector3d& point : lifted) point.z() += 0.1;
   const MovedSource above{&target, &all, &lifted, &target.cloud().normals};
   // d = width: d^2 / (d^2 + width^2) = 1 / 2.
-  EXPECT_NEAR(UnmatchedShare(above, target, all, 0.1, MatchingOptions()), 0.5, 1e-9);
+  EXPECT_NEAR(FindUnmatched(above, target, all, 0.1, MatchingOptions()).Mean(), 0.5, 1e-9);
   MatchingOptions near;
   near.max_distance = 0.01;
-  EXPECT_EQ(UnmatchedShare(above, target, all, 0.1, near), 1.0);
+  EXPECT_EQ(FindUnmatched(above, target, all, 0.1, near).Mean(), 1.0);
 }
 
 TEST(Matching, IsTheSameOnTwoThreads) {
