@@ -14,6 +14,8 @@ namespace {
 // Distance, as a fraction of the source's diagonal, at which a point counts half as missed.
 constexpr double kMissedWidth = 0.02;
 constexpr double kNothingMissed = 0.01;
+// Of the source: enough that the target finds one beside each of its own.
+constexpr int kMissedSamples = 8000;
 
 // The state of other nodes, at some of the source's points, under the warp of `graph`.
 DeformationState CarryOver(const BuiltGraph& graph,
@@ -70,7 +72,7 @@ Status CoarseToFine::RunLevel(
 }
 
 Unmatched CoarseToFine::Missed(int level, const DeformationState& state) const {
-  MovingSamples moving(*fit_.source, graphs_[level], kMinCoarseSamples);
+  MovingSamples moving(*fit_.source, graphs_[level], kMissedSamples);
   moving.Move(state, fit_.options->num_threads);
   return FindUnmatched(moving.Moved(),
                         *fit_.target,

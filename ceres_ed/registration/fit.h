@@ -68,11 +68,9 @@ struct FitSchedule {
   double noise_stiffness = 3000.0;
   // Steps of stiffness on the coarser levels together, and on the last one, >= 1.
   int coarse_steps = 4;
-  int fine_steps = 3;
+  int fine_steps = 2;
   // Rounds of matching and solving in each step, >= 1; fewer where the surface stands still.
-  int max_rounds = 6;
-  // The same on the coarser levels.
-  int coarse_rounds = 4;
+  int max_rounds = 4;
   // Mean motion of the source in a round, as a fraction of its diagonal, that counts as standing
   // still, > 0.
   double tolerance = 2e-4;
@@ -108,9 +106,9 @@ struct FitOptions {
   double careful_angle_deg = 50.0;
   // max_distance is in the target's unit.
   MatchingOptions matching;
-  // Points of each surface that are matched on the last level, >= 10; a quarter of them, but no
-  // fewer than 1000, on the level before.
-  int max_samples = 6000;
+  // Points of each surface that are matched in the last step, >= 10; half of them in the steps of
+  // the last level before, and an eighth on the coarser levels, but there no fewer than 1000.
+  int max_samples = 12000;
   // Smooth a noisy target before it is followed.
   bool denoise = true;
   bool rigid_first = true;

@@ -92,9 +92,8 @@ bool FitOptions::IsValid(std::string* error) const {
   } else if (std::min({schedule.coarse_steps,
                        schedule.fine_steps,
                        schedule.max_rounds,
-                       schedule.coarse_rounds,
                        schedule.solver_iterations}) < 1) {
-    message << "coarse_steps, fine_steps, max_rounds, coarse_rounds and solver_iterations are expected >= 1";
+    message << "coarse_steps, fine_steps, max_rounds and solver_iterations are expected >= 1";
   } else if (!(schedule.tolerance > 0.0)) {
     bad("tolerance", schedule.tolerance, "> 0");
   } else if (!(std::min(loss_width, careful_loss_width) > 0.0)) {

@@ -6,7 +6,7 @@
 namespace ceres_ed {
 
 MovingSamples::MovingSamples(const Surface& source, const BuiltGraph& graph, int count)
-    : source_(source), graph_(graph), samples_(SamplePoints(source, count)) {
+    : source_(&source), graph_(&graph), samples_(SamplePoints(source, count)) {
   for (const int point : samples_) {
     points_.push_back(source.cloud().points[point]);
     normals_.push_back(source.cloud().normals[point]);
@@ -19,12 +19,12 @@ double MovingSamples::Move(const DeformationState& state, int num_threads) {
   ParallelFor(num_threads, count, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const int point = samples_[i];
-      const Binding binding = graph_.skinning[point];
+      const Binding binding = graph_->skinning[point];
       const Eigen::Vector3d moved =
-          WarpPoint(graph_.graph, state, binding, source_.cloud().points[point]);
+          WarpPoint(graph_->graph, state, binding, source_->cloud().points[point]);
       motions[i] = (moved - points_[i]).norm();
       points_[i] = moved;
-      normals_[i] = WarpNormal(state, binding, source_.cloud().normals[point]);
+      normals_[i] = WarpNormal(state, binding, source_->cloud().normals[point]);
     }
   });
   double sum = 0.0;

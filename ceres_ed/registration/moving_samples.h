@@ -23,11 +23,11 @@ class MovingSamples {
   double Move(const DeformationState& state, int num_threads);
 
   // Refers to this object.
-  MovedSource Moved() const { return {&source_, &samples_, &points_, &normals_}; }
+  MovedSource Moved() const { return {source_, &samples_, &points_, &normals_}; }
 
  private:
-  const Surface& source_;
-  const BuiltGraph& graph_;
+  const Surface* source_;
+  const BuiltGraph* graph_;
   std::vector<int> samples_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<Eigen::Vector3d> normals_;

@@ -12,6 +12,9 @@ namespace {
 constexpr int kPatientIterations = 3;
 // Noise counts in hundredths of the source's diagonal.
 constexpr double kPerLength = 100.0;
+// Of all samples, what the steps before the last one match, and the levels before the last one.
+constexpr int kShareOfSteps = 2;
+constexpr int kShareOfLevels = 8;
 
 class NonrigidLoop {
  public:
@@ -38,6 +41,7 @@ class NonrigidLoop {
  private:
   enum class RoundOutcome { kMoving, kStill, kStopped };
 
+  void TakeSamples(int count);
   RoundOutcome RunRound(int max_iterations);
   void Match();
   SolveSummary Solve(int max_iterations);
@@ -143,19 +147,28 @@ NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
   return motion < options_.schedule.tolerance ? RoundOutcome::kStill : RoundOutcome::kMoving;
 }
 
+void NonrigidLoop::TakeSamples(int count) {
+  moving_ = MovingSamples(source_, graph_, count);
+  moving_.Move(*state_, options_.num_threads);
+  if (target_ != nullptr) target_samples_ = SamplePoints(*target_, count);
+  memory_ = {};
+}
+
 void NonrigidLoop::Run() {
   const FitSchedule& schedule = options_.schedule;
-  if (target_ != nullptr) target_samples_ = SamplePoints(*target_, plan_.samples);
-  moving_.Move(*state_, options_.num_threads);
+  TakeSamples(plan_.samples);
   RoundOutcome outcome = RoundOutcome::kMoving;
   for (int step = 0; step < plan_.steps && outcome != RoundOutcome::kStopped; ++step) {
     const double part = plan_.steps > 1 ? double(step) / (plan_.steps - 1) : 1.0;
     stiffness_ =
         plan_.first_stiffness * std::pow(plan_.last_stiffness / plan_.first_stiffness, part);
     problem_->SetStiffness(stiffness_);
-    for (int round = 0; round < plan_.max_rounds; ++round) {
+    if (step + 1 == plan_.steps && plan_.last_samples != plan_.samples) {
+      TakeSamples(plan_.last_samples);
+    }
+    for (int round = 0; round < schedule.max_rounds; ++round) {
       outcome = RunRound(schedule.solver_iterations);
-      const double done = (step + double(round + 1) / plan_.max_rounds) / plan_.steps;
+      const double done = (step + double(round + 1) / schedule.max_rounds) / plan_.steps;
       Report(plan_.progress_begin + done * (plan_.progress_end - plan_.progress_begin));
       if (outcome != RoundOutcome::kMoving) break;
     }
@@ -192,7 +205,6 @@ std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
     const bool last = level == coarse_levels;
     plan.max_angle_deg = options.matching.max_angle_deg;
     plan.is_last = last;
-    plan.max_rounds = last ? schedule.max_rounds : schedule.coarse_rounds;
     plan.steps = last ? schedule.fine_steps : coarse_steps;
     plan.loss_width = last ? options.loss_width : options.careful_loss_width;
     plan.first_stiffness = stiffness;
@@ -201,10 +213,13 @@ std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
     plan.progress_begin = static_cast<double>(level) / levels;
     plan.progress_end = static_cast<double>(level + 1) / levels;
   }
-  int samples = options.max_samples;
-  for (int level = coarse_levels; level >= 0; --level) {
-    plans[level].samples = samples;
-    samples = std::min(options.max_samples, std::max(kMinCoarseSamples, samples / 4));
+  const auto samples = [&](int share) {
+    return std::min(options.max_samples, std::max(kMinCoarseSamples, options.max_samples / share));
+  };
+  for (int level = 0; level < levels; ++level) {
+    const bool last = level == coarse_levels;
+    plans[level].samples = samples(last ? kShareOfSteps : kShareOfLevels);
+    plans[level].last_samples = last ? options.max_samples : plans[level].samples;
   }
   return plans;
 }

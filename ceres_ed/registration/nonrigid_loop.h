@@ -16,15 +16,15 @@ struct LevelPlan {
   double first_stiffness = 1.0;
   double last_stiffness = 1.0;
   int steps = 1;
-  int max_rounds = 1;
   // The others end before anyone asks for their energies.
   bool is_last = true;
   // Of the data loss, as a multiple of the robust standard deviation of the residuals.
   double loss_width = 10.0;
   // Of the normals of a pair, degrees.
   double max_angle_deg = 75.0;
-  // Points of each surface that are matched.
+  // Points of each surface that are matched, and in the last step.
   int samples = 1000;
+  int last_samples = 1000;
   // What of the whole fit is done before and after this level, in [0, 1].
   double progress_begin = 0.0;
   double progress_end = 1.0;
