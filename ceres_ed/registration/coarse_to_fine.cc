@@ -75,10 +75,10 @@ Unmatched CoarseToFine::Missed(int level, const DeformationState& state) const {
   MovingSamples moving(*fit_.source, graphs_[level], kMissedSamples);
   moving.Move(state, fit_.options->num_threads);
   return FindUnmatched(moving.Moved(),
-                        *fit_.target,
-                        SamplePoints(*fit_.target, kMinCoarseSamples),
-                        kMissedWidth,
-                        fit_.options->matching);
+                       *fit_.target,
+                       SamplePoints(*fit_.target, kMinCoarseSamples),
+                       kMissedWidth,
+                       fit_.options->matching);
 }
 
 Status CoarseToFine::Run(FitResult* result) {
@@ -110,8 +110,7 @@ Status CoarseToFine::Run(FitResult* result) {
       if (EndedEarly(*result)) break;
     }
     const int reached = std::min(level, last - 1);
-    const Unmatched missed =
-        fit_.target != nullptr ? Missed(reached, state) : Unmatched{0.0, 0.0};
+    const Unmatched missed = fit_.target != nullptr ? Missed(reached, state) : Unmatched{0.0, 0.0};
     if (missed.Mean() < best_missed) {
       best_missed = missed.Mean();
       loss_width = ways[i].loss_width;

@@ -2,9 +2,9 @@
 
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
-#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/fit_validation.h>
 #include <ceres_ed/registration/unfold.h>
 #include <ceres_ed/registration/vertex_finish.h>

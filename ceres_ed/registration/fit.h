@@ -51,7 +51,7 @@ struct FitWeights {
   double landmark = 10.0;
   double fixed = 1e4;
   // Share of the data weight that goes to point-to-point instead of point-to-plane, in [0, 1].
-  double point_to_point_share = 0.01;
+  double point_to_point_share = 0.005;
 };
 
 // From stiff to soft, and from few nodes to many: E_rot and E_reg start at `initial_stiffness`

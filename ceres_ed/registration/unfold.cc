@@ -14,11 +14,11 @@ namespace ceres_ed {
 namespace {
 
 // Rings around a fold that are set free, one try after the other.
-constexpr int kRings[] = {2, 3, 5};
+constexpr int kRings[] = {1, 2, 3, 4, 5};
 // Of a vertex to the target, against its edges. Without the target folds open more easily.
-constexpr double kPulls[] = {0.1, 0.0};
+constexpr double kPulls[] = {0.5, 0.1, 0.0};
 // Of a patch that is pulled: a larger one isn't worth its time.
-constexpr int kMaxPulledRings = 3;
+constexpr int kMaxPulledRings = 4;
 // In edges: what was farther from the target isn't pulled.
 constexpr double kMaxDistance = 1.0;
 // Of the normal that the vertex should have and the target's.

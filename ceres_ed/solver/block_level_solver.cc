@@ -180,8 +180,8 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
 
 void BlockLevelSolver::UpdateStructure(const ProblemConfig& config, NormalEquations* equations) {
   const std::vector<int> sizes = equations->BlockSizes();
-  const bool same_unknowns = structure_ != nullptr && variable_nodes_ == config.variable_nodes &&
-                             sizes_ == sizes;
+  const bool same_unknowns =
+      structure_ != nullptr && variable_nodes_ == config.variable_nodes && sizes_ == sizes;
   if (same_unknowns && equations->SetStructure(structure_.get())) return;
   const std::vector<std::pair<int, int>> pairs = equations->BlockPairs();
   std::vector<std::pair<int, int>> joined = pairs;

@@ -30,8 +30,8 @@ class NormalEquations {
   // Pairs of blocks that share a residual, sorted and without repetition.
   std::vector<std::pair<int, int>> BlockPairs() const;
 
-  // Fixes where each residual's products go. `structure` outlives this. False, and nothing is fixed,
-  // when it lacks one of BlockPairs().
+  // Fixes where each residual's products go. `structure` outlives this. False, and nothing is
+  // fixed, when it lacks one of BlockPairs().
   bool SetStructure(const BlockStructure* structure);
 
   // Writes cost = sum of rho(|r|^2) / 2, values = J^T J in the layout of the structure (diagonal

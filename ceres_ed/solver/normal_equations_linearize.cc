@@ -73,12 +73,8 @@ bool NormalEquations::EvaluateGeneral(const Item& item,
     return false;
   }
   double rho[3];
-  if (!ApplyLoss(item.residual.term,
-                 item.residual.weight,
-                 item.num_residuals,
-                 residuals,
-                 rho,
-                 cost)) {
+  if (!ApplyLoss(
+          item.residual.term, item.residual.weight, item.num_residuals, residuals, rho, cost)) {
     return false;
   }
   if (!with_jacobian) return true;
