@@ -178,7 +178,10 @@ void NonrigidLoop::Run() {
     result_->message = still ? "the surface stands still" : "rounds used up while still moving";
   }
   result_->point_relevant = problem_->builder().PointRelevantNodes();
-  if (plan_.is_last) result_->final_energy = problem_->builder().Evaluate(*state_);
+  if (plan_.is_last || outcome == RoundOutcome::kStopped) {
+    if (!initial_energy_known_) MeasureInitialEnergy();
+    result_->final_energy = problem_->builder().Evaluate(*state_);
+  }
 }
 
 }  // namespace

@@ -136,11 +136,16 @@ TEST_F(EdFitTest, GivesTheSameBytesAtAnyThreadCountAndAgain) {
 }
 
 TEST_F(EdFitTest, GivesTheSameInMillimetresAndMetres) {
+  // Target points half way between two of the source would be rounded to either.
+  RingOptions source;
+  RingOptions target;
+  target.phase = 0.004;
+  WritePair(source, target);
   ASSERT_EQ(FitPair().exit_code, 0);
   std::vector<Eigen::Vector3d> metres = Load("out.ply").cloud.points;
-  RingOptions scaled;
-  scaled.scale = 1000.0;
-  WritePair(scaled, scaled);
+  source.scale = 1000.0;
+  target.scale = 1000.0;
+  WritePair(source, target);
   // The last flag of a name wins.
   ASSERT_EQ(FitPair({"--node_spacing=200"}).exit_code, 0);
   std::vector<Eigen::Vector3d> millimetres = Load("out.ply").cloud.points;

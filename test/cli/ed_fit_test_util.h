@@ -57,6 +57,8 @@ struct RingOptions {
   // The normals of the ring that is not bent, and what nobody asked for: uchar red, int label.
   bool extras = false;
   double scale = 1.0;
+  // Of the first vertex, in u and v.
+  double phase = 0.0;
   // Rows of text behind those of the ring.
   std::vector<std::string> more_vertices;
   std::vector<std::string> more_faces;
@@ -70,8 +72,8 @@ inline std::string RingVertexRows(const RingOptions& options) {
   std::ostringstream text;
   text.precision(17);
   for (int i = 0; i < options.size(); ++i) {
-    const double u = double(i % options.columns) / options.columns;
-    const double v = double(i / options.columns) / options.rows;
+    const double u = double(i % options.columns) / options.columns + options.phase;
+    const double v = double(i / options.columns) / options.rows + options.phase;
     Eigen::Vector3d point = options.bent ? BentPoint(RingPoint(u, v)) : RingPoint(u, v);
     point *= options.scale;
     if (options.is_nan(i)) point.x() = std::numeric_limits<double>::quiet_NaN();
