@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 #include <utility>
 
 namespace ceres_ed {
@@ -127,7 +128,26 @@ Status CoarseToFine::Run(FitResult* result) {
   graph_ = last;
   LevelPlan plan = plans[last];
   plan.loss_width = loss_width;
-  return RunLevel(last, plan, start, &state_, result);
+  Status status = RunLevel(last, plan, start, &state_, result);
+  if (status.ok()) KeepTheBetter(result);
+  return status;
+}
+
+// Landmarks and fixed points are the user's word, whatever they do to the surfaces.
+void CoarseToFine::KeepTheBetter(FitResult* result) {
+  if (fit_.target == nullptr || !fit_.landmarks.empty() || !fit_.fixed.empty()) return;
+  const DeformationState rest(graphs_[graph_].graph.num_nodes());
+  const double rigid = Missed(graph_, rest).Mean();
+  const double fitted = Missed(graph_, state_).Mean();
+  if (fitted <= rigid) return;
+  std::ostringstream message;
+  message << "the deformation leaves more of the surfaces unmatched (" << 100.0 * fitted
+          << " %) than the rigid placement (" << 100.0 * rigid
+          << " %): the result is the rigid one; are these two states of one body?";
+  result->warnings.push_back(message.str());
+  result->rigid_only = true;
+  state_ = rest;
+  result->final_energy = result->initial_energy;
 }
 
 }  // namespace ceres_ed

@@ -33,6 +33,8 @@ class CoarseToFine {
   // Runs one level with `loss_width`, from `state` over graph `from` (-1: at rest).
   Status RunLevel(
       int level, const LevelPlan& plan, int from, DeformationState* state, FitResult* result) const;
+  // Goes back to the rigid placement, with a warning, where the deformation explains less.
+  void KeepTheBetter(FitResult* result);
   Unmatched Missed(int level, const DeformationState& state) const;
 
   UnitFit fit_;

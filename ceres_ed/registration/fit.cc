@@ -150,7 +150,7 @@ void Fitter::FinishEveryVertex(const UnitFit& fit,
                                PointCloud* fitted) {
   const bool is_whole =
       result_.status == SolveStatus::kConverged || result_.status == SolveStatus::kMaxIterations;
-  if (!options_.finish || fit.target == nullptr || !is_whole) return;
+  if (!options_.finish || fit.target == nullptr || !is_whole || result_.rigid_only) return;
   const Timer timer;
   const PointCloud moved = Transformed(unit_from_target_, *fitted);
   std::vector<Eigen::Vector3d> normals;

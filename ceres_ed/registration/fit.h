@@ -168,6 +168,8 @@ struct FitResult {
   int solver_iterations = 0;
   // Largest distance of a fixed point from its place, target's unit; 0 where there are none.
   double max_fixed_error = 0.0;
+  // Whether the deformation explained less than the rigid placement, and was left out.
+  bool rigid_only = false;
   // Standard deviation of the target's noise across its surface, in its unit.
   double noise = 0.0;
   // Faces that were folded over and were laid flat in the end.

@@ -1,0 +1,85 @@
+// A fit is never worse than the rigid placement.
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/point_energy.h>
+#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/testing/synthetic_deformations.h>
+#include <ceres_ed/testing/synthetic_shapes.h>
+
+#include <memory>
+#include <utility>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+struct AstrayFunctor {
+  static constexpr int kNumResiduals = 1;
+
+  template <typename T>
+  bool operator()(const T* point, T* residual) const {
+    residual[0] = point[2] - 5.0;
+    return true;
+  }
+};
+
+// Pulls all points five diagonals up, away from any target.
+class AstrayEnergy : public EnergyTerm {
+ public:
+  EnergyKind kind() const override { return EnergyKind::kPrior; }
+
+  void AddResiduals(const EnergyContext& context, ResidualSink* sink) const override {
+    for (int i = 0; i < static_cast<int>(context.points->size()); ++i) {
+      AddPointResidual(context, i, AstrayFunctor(), 1.0, sink);
+    }
+  }
+};
+
+StatusOr<FitResult> FitDolphin(double weight_astray) {
+  constexpr SyntheticShape kShape = SyntheticShape::kDolphin;
+  FitInput input;
+  input.source = MakeSyntheticShape(kShape, 600, 1.0);
+  input.target = DeformSyntheticShape(kShape, 1.0, 0.3, MakeSyntheticShape(kShape, 800, 1.0));
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  EnergyInfo info;
+  info.name = "astray";
+  info.summary = "all points go up and away";
+  EXPECT_TRUE(registry
+                  .Register(std::move(info),
+                            [](const ParameterValues&) { return std::make_unique<AstrayEnergy>(); })
+                  .ok());
+  FitOptions options;
+  EnergySpec astray;
+  astray.name = "astray";
+  astray.weight = weight_astray;
+  options.extra_energies = {astray};
+  return Fit(input, options, registry);
+}
+
+TEST(FitFallback, TakesTheRigidPlacementWhereTheDeformationLeadsAstray) {
+  const StatusOr<FitResult> result = FitDolphin(1e6);
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_TRUE(result->rigid_only);
+  EXPECT_THAT(result->warnings, Contains(HasSubstr("the result is the rigid one")));
+  const PointCloud source = MakeSyntheticShape(SyntheticShape::kDolphin, 600, 1.0);
+  ASSERT_EQ(result->points.size(), source.size());
+  for (std::size_t i = 0; i < source.size(); ++i) {
+    EXPECT_LT((result->points[i] - result->rigid * source.points[i]).norm(), 1e-12);
+  }
+}
+
+TEST(FitFallback, KeepsADeformationThatExplainsMore) {
+  const StatusOr<FitResult> result = FitDolphin(0.0);
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_FALSE(result->rigid_only);
+  EXPECT_THAT(result->warnings, Not(Contains(HasSubstr("rigid"))));
+}
+
+}  // namespace
+}  // namespace ceres_ed
