@@ -84,7 +84,7 @@ constexpr Ingredient kIngredients[] = {
      "a quarter of the points is matched on the last level",
      [](FitOptions* options) { options->max_samples = 1500; }},
     {"small_point_share",
-     "point-to-point has a tenth of the data weight, not a hundredth",
+     "point-to-point has a tenth of the data weight",
      [](FitOptions* options) { options->weights.point_to_point_share = 0.1; }},
     {"point_share",
      "no point-to-point",
