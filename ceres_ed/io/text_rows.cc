@@ -72,11 +72,17 @@ StatusOr<int> ParseNatural(const std::string& place, std::string_view name, std:
 }
 
 void AppendNumbers(std::initializer_list<double> numbers, std::string* row) {
-  constexpr std::size_t kLongestDouble = 32;
+  constexpr std::size_t kLongestDouble = 64;
   for (const double number : numbers) {
     if (!row->empty() && row->back() != '\n' && row->back() != ' ') *row += ' ';
+    // The shortest form of 100000 is 1e+05, which is no frame number and hard on the eyes.
+    const double magnitude = std::abs(number);
+    const bool plain = magnitude == 0.0 || (magnitude >= 1e-6 && magnitude < 1e16);
     char text[kLongestDouble];
-    row->append(text, std::to_chars(text, text + sizeof(text), number).ptr);
+    char* const end = text + sizeof(text);
+    row->append(text,
+                plain ? std::to_chars(text, end, number, std::chars_format::fixed).ptr
+                      : std::to_chars(text, end, number).ptr);
   }
 }
 

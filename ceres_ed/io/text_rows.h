@@ -33,7 +33,8 @@ StatusOr<double> ParseFinite(const std::string& place,
 // Returns the whole number >= 0 that `text` is, or an error as of ParseFinite.
 StatusOr<int> ParseNatural(const std::string& place, std::string_view name, std::string_view text);
 
-// Appends the numbers, set apart by blanks, in the fewest digits that read back as the same.
+// Appends the numbers, set apart by blanks, in as few digits as read back as the same; without
+// exponent between 1e-6 and 1e16.
 void AppendNumbers(std::initializer_list<double> numbers, std::string* row);
 
 }  // namespace ceres_ed
