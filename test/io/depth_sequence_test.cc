@@ -2,7 +2,6 @@
 
 #include "sequence_test_util.h"
 
-#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
