@@ -1,0 +1,89 @@
+#include "ceres_ed/io/text_rows.h"
+
+#include <ceres_ed/io/text.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <system_error>
+
+namespace ceres_ed {
+namespace {
+
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+void SplitFields(std::string_view line, std::vector<std::string_view>* fields) {
+  constexpr std::string_view kSeparators = ", \t\r\v\f";
+  fields->clear();
+  std::size_t begin = line.find_first_not_of(kSeparators);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
+    fields->push_back(line.substr(begin, end - begin));
+    begin = line.find_first_not_of(kSeparators, end);
+  }
+}
+
+}  // namespace
+
+Status ForEachTextRow(const std::string& path,
+                      const std::function<Status(const TextRow&)>& read_row) {
+  const StatusOr<std::string> contents = ReadWholeFile(path);
+  if (!contents.ok()) return contents.status();
+  std::string_view rest = *contents;
+  if (rest.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+    rest.remove_prefix(kByteOrderMark.size());
+  }
+  TextRow row;
+  for (int line_number = 1; !rest.empty(); ++line_number) {
+    const std::size_t length = std::min(rest.find('\n'), rest.size());
+    const std::string_view line = rest.substr(0, length);
+    rest.remove_prefix(std::min(length + 1, rest.size()));
+    SplitFields(line.substr(0, line.find('#')), &row.fields);
+    if (row.fields.empty()) continue;
+    row.place = path + ": line " + std::to_string(line_number) + ": ";
+    Status status = read_row(row);
+    if (!status.ok()) return status;
+  }
+  return Status::Ok();
+}
+
+StatusOr<double> ParseFinite(const std::string& place,
+                             std::string_view name,
+                             std::string_view text) {
+  const std::optional<double> value = ParseDouble(text);
+  if (!value.has_value() || !std::isfinite(*value)) {
+    return Status::Error(place + std::string(name) + " is " + Quoted(text) +
+                         ", expected a finite number");
+  }
+  return *value;
+}
+
+StatusOr<int> ParseNatural(const std::string& place, std::string_view name, std::string_view text) {
+  int value = 0;
+  const char* const end = text.data() + text.size();
+  const std::from_chars_result result = std::from_chars(text.data(), end, value);
+  if (result.ptr != end || result.ec != std::errc() || value < 0) {
+    return Status::Error(place + std::string(name) + " is " + Quoted(text) +
+                         ", expected a whole number from 0 to 2147483647");
+  }
+  return value;
+}
+
+void AppendNumbers(std::initializer_list<double> numbers, std::string* row) {
+  constexpr std::size_t kLongestDouble = 64;
+  for (const double number : numbers) {
+    if (!row->empty() && row->back() != '\n' && row->back() != ' ') *row += ' ';
+    // The shortest form of 100000 is 1e+05, which is no frame number and hard on the eyes.
+    const double magnitude = std::abs(number);
+    const bool plain = magnitude == 0.0 || (magnitude >= 1e-6 && magnitude < 1e16);
+    char text[kLongestDouble];
+    char* const end = text + sizeof(text);
+    row->append(text,
+                plain ? std::to_chars(text, end, number, std::chars_format::fixed).ptr
+                      : std::to_chars(text, end, number).ptr);
+  }
+}
+
+}  // namespace ceres_ed
