@@ -26,7 +26,6 @@ bool SequenceEvaluationOptions::IsValid(std::string* error) const {
   };
   if (!(max_birth_offset > 0.0)) return refuse("max_birth_offset", max_birth_offset);
   if (!(visibility_tolerance > 0.0)) return refuse("visibility_tolerance", visibility_tolerance);
-  if (map_cell < 1) return refuse("map_cell", map_cell);
   return true;
 }
 
@@ -112,7 +111,7 @@ DepthAgreement CompareWithDepth(const PinholeCamera& camera,
                                 const SequenceEvaluationOptions& options) {
   CHECK_EQ(depth.width(), camera.width);
   CHECK_EQ(depth.height(), camera.height);
-  VisibilityBuffer buffer(camera, options.map_cell);
+  VisibilityBuffer buffer(camera, VisibilityBuffer::CellOfPoints(camera, snapshot.points));
   buffer.AddPoints(snapshot.points);
   DepthAgreement agreement;
   agreement.frame = snapshot.frame;

@@ -27,8 +27,6 @@ struct SequenceEvaluationOptions {
   // A point is hidden when it lies farther than this behind what the camera sees at its pixel. Wide
   // enough for the error of a map, narrower than an organ: 8 mm at 0.27 m.
   double visibility_tolerance = 0.03;
-  // Cells of the z-buffer of the map's own points, pixels; serves where there is no truth.
-  int map_cell = 4;
 
   // False, with the value and what was expected in `error`, unless all are positive.
   bool IsValid(std::string* error) const;

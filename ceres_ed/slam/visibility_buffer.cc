@@ -1,7 +1,10 @@
 #include "ceres_ed/slam/visibility_buffer.h"
 
+#include <ceres_ed/geometry/kd_tree.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 #include <glog/logging.h>
@@ -12,6 +15,12 @@ namespace {
 // Triangles are cut this far in front of the camera, as a share of their largest depth: nearer,
 // projections grow without bound.
 constexpr double kNearShare = 1e-6;
+
+// Cells of points: how many distances between them, over how many of them, and bounds in pixels.
+constexpr double kSpacings = 2.0;
+constexpr std::size_t kSpacingSamples = 1000;
+constexpr double kMinPointCell = 2.0;
+constexpr double kMaxPointCell = 64.0;
 
 }  // namespace
 
@@ -87,6 +96,24 @@ void VisibilityBuffer::AddTriangle(const Triangle& corners) {
       nearest_(u, v) = std::min(nearest_(u, v), static_cast<float>(1.0 / inverse));
     }
   }
+}
+
+int VisibilityBuffer::CellOfPoints(const PinholeCamera& camera,
+                                   const std::vector<Eigen::Vector3d>& points) {
+  const KdTree tree(points);
+  const std::size_t step = points.size() / kSpacingSamples + 1;
+  std::vector<double> spacings;
+  std::array<Neighbor, 2> nearest;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    // The first one is the point itself.
+    if (!PixelOf(camera, points[i]) || tree.KNearest(points[i], 2, nearest.data()) < 2) continue;
+    const double distance = std::sqrt(nearest[1].squared_distance);
+    spacings.push_back(std::max(camera.fx, camera.fy) * distance / points[i].z());
+  }
+  if (spacings.empty()) return static_cast<int>(kMinPointCell);
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return static_cast<int>(std::ceil(std::clamp(kSpacings * *middle, kMinPointCell, kMaxPointCell)));
 }
 
 void VisibilityBuffer::AddPoints(const std::vector<Eigen::Vector3d>& points) {

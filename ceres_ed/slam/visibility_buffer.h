@@ -22,13 +22,17 @@ std::optional<std::array<int, 2>> PixelOf(const PinholeCamera& camera,
 // The nearest depth that occluders leave behind each cell of the picture.
 class VisibilityBuffer {
  public:
-  // Nothing occludes yet. Cells are squares of `cell` >= 1 pixels: 1 for a mesh; for bare points at
-  // least their distance in the picture, or what lies behind them shows between them.
+  // Nothing occludes yet. Cells are squares of `cell` >= 1 pixels: 1 for a mesh; for bare points
+  // CellOfPoints, or what lies behind them shows between them.
   VisibilityBuffer(const PinholeCamera& camera, int cell);
 
   // Adds triangles in the camera frame, sampled at the centres of the cells. What is behind the
   // camera occludes nothing.
   void AddTriangles(const PointCloud& mesh);
+
+  // The cell for these points (camera frame): twice their distance to one another in the picture,
+  // in the median, so that few cells on a surface stay empty.
+  static int CellOfPoints(const PinholeCamera& camera, const std::vector<Eigen::Vector3d>& points);
 
   // Adds points in the camera frame: each fills the cell that it falls on.
   void AddPoints(const std::vector<Eigen::Vector3d>& points);
