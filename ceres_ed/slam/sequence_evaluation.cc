@@ -77,7 +77,7 @@ StatusOr<FrameTruthError> TruthEvaluator::Evaluate(const LiveSnapshot& snapshot)
   const TrueSurface surface(truth_.InCamera(snapshot.frame));
   Status status = LocateNewPoints(snapshot, surface);
   if (!status.ok()) return status;
-  VisibilityBuffer buffer(camera_, 1);
+  VisibilityBuffer buffer(camera_);
   buffer.AddTriangles(surface.mesh());
 
   FrameTruthError error;
@@ -111,7 +111,7 @@ DepthAgreement CompareWithDepth(const PinholeCamera& camera,
                                 const SequenceEvaluationOptions& options) {
   CHECK_EQ(depth.width(), camera.width);
   CHECK_EQ(depth.height(), camera.height);
-  VisibilityBuffer buffer(camera, VisibilityBuffer::CellOfPoints(camera, snapshot.points));
+  VisibilityBuffer buffer(camera);
   buffer.AddPoints(snapshot.points);
   DepthAgreement agreement;
   agreement.frame = snapshot.frame;

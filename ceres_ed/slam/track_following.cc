@@ -31,7 +31,7 @@ TrackFollower::TrackFollower(const PinholeCamera& camera,
 
 std::vector<TrackFollower::Candidate> TrackFollower::SeenPoints(
     const LiveSnapshot& snapshot) const {
-  VisibilityBuffer buffer(camera_, VisibilityBuffer::CellOfPoints(camera_, snapshot.points));
+  VisibilityBuffer buffer(camera_);
   buffer.AddPoints(snapshot.points);
   std::vector<Candidate> candidates;
   for (std::size_t i = 0; i < snapshot.size(); ++i) {

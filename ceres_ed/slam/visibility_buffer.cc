@@ -7,8 +7,6 @@
 #include <cstddef>
 #include <limits>
 
-#include <glog/logging.h>
-
 namespace ceres_ed {
 namespace {
 
@@ -16,11 +14,28 @@ namespace {
 // projections grow without bound.
 constexpr double kNearShare = 1e-6;
 
-// Cells of points: how many distances between them, over how many of them, and bounds in pixels.
-constexpr double kSpacings = 2.0;
+// Squares of points: how many distances between them, over how many of them, and the largest half
+// side in pixels.
+constexpr double kSpacings = 1.5;
 constexpr std::size_t kSpacingSamples = 1000;
-constexpr double kMinPointCell = 2.0;
-constexpr double kMaxPointCell = 64.0;
+constexpr double kMaxHalfSide = 32.0;
+
+// The median distance of the points to their nearest others; 0 where there are none.
+double MedianSpacing(const std::vector<Eigen::Vector3d>& points) {
+  const KdTree tree(points);
+  const std::size_t step = points.size() / kSpacingSamples + 1;
+  std::vector<double> spacings;
+  std::array<Neighbor, 2> nearest;
+  for (std::size_t i = 0; i < points.size(); i += step) {
+    // The first one is the point itself.
+    if (tree.KNearest(points[i], 2, nearest.data()) < 2) continue;
+    spacings.push_back(std::sqrt(nearest[1].squared_distance));
+  }
+  if (spacings.empty()) return 0.0;
+  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+  std::nth_element(spacings.begin(), middle, spacings.end());
+  return *middle;
+}
 
 }  // namespace
 
@@ -35,14 +50,9 @@ std::optional<std::array<int, 2>> PixelOf(const PinholeCamera& camera,
   return std::array<int, 2>{static_cast<int>(u), static_cast<int>(v)};
 }
 
-VisibilityBuffer::VisibilityBuffer(const PinholeCamera& camera, int cell)
+VisibilityBuffer::VisibilityBuffer(const PinholeCamera& camera)
     : camera_(camera),
-      cell_(cell),
-      nearest_((camera.width + cell - 1) / cell,
-               (camera.height + cell - 1) / cell,
-               std::numeric_limits<float>::infinity()) {
-  CHECK_GE(cell, 1);
-}
+      nearest_(camera.width, camera.height, std::numeric_limits<float>::infinity()) {}
 
 void VisibilityBuffer::AddTriangles(const PointCloud& mesh) {
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -67,10 +77,7 @@ void VisibilityBuffer::AddTriangles(const PointCloud& mesh) {
 
 void VisibilityBuffer::AddTriangle(const Triangle& corners) {
   std::array<Eigen::Vector2d, 3> p;
-  for (int k = 0; k < 3; ++k) {
-    // Cell (i, j) has its centre at pixel (i + 0.5) * cell - 0.5.
-    p[k] = (camera_.Project(corners[k]).array() + 0.5) / cell_ - 0.5;
-  }
+  for (int k = 0; k < 3; ++k) p[k] = camera_.Project(corners[k]);
   const auto side = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b, double u, double v) {
     return (b.x() - a.x()) * (v - a.y()) - (b.y() - a.y()) * (u - a.x());
   };
@@ -98,37 +105,26 @@ void VisibilityBuffer::AddTriangle(const Triangle& corners) {
   }
 }
 
-int VisibilityBuffer::CellOfPoints(const PinholeCamera& camera,
-                                   const std::vector<Eigen::Vector3d>& points) {
-  const KdTree tree(points);
-  const std::size_t step = points.size() / kSpacingSamples + 1;
-  std::vector<double> spacings;
-  std::array<Neighbor, 2> nearest;
-  for (std::size_t i = 0; i < points.size(); i += step) {
-    // The first one is the point itself.
-    if (!PixelOf(camera, points[i]) || tree.KNearest(points[i], 2, nearest.data()) < 2) continue;
-    const double distance = std::sqrt(nearest[1].squared_distance);
-    spacings.push_back(std::max(camera.fx, camera.fy) * distance / points[i].z());
-  }
-  if (spacings.empty()) return static_cast<int>(kMinPointCell);
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return static_cast<int>(std::ceil(std::clamp(kSpacings * *middle, kMinPointCell, kMaxPointCell)));
-}
-
 void VisibilityBuffer::AddPoints(const std::vector<Eigen::Vector3d>& points) {
+  const double half_side = kSpacings * MedianSpacing(points) * std::max(camera_.fx, camera_.fy);
   for (const Eigen::Vector3d& point : points) {
     const auto pixel = PixelOf(camera_, point);
     if (!pixel) continue;
-    float& nearest = nearest_((*pixel)[0] / cell_, (*pixel)[1] / cell_);
-    nearest = std::min(nearest, static_cast<float>(point.z()));
+    const int reach = static_cast<int>(std::min(half_side / point.z(), kMaxHalfSide));
+    const int u_last = std::min((*pixel)[0] + reach, camera_.width - 1);
+    const int v_last = std::min((*pixel)[1] + reach, camera_.height - 1);
+    for (int v = std::max(0, (*pixel)[1] - reach); v <= v_last; ++v) {
+      for (int u = std::max(0, (*pixel)[0] - reach); u <= u_last; ++u) {
+        nearest_(u, v) = std::min(nearest_(u, v), static_cast<float>(point.z()));
+      }
+    }
   }
 }
 
 bool VisibilityBuffer::Sees(const Eigen::Vector3d& point, double tolerance) const {
   const auto pixel = PixelOf(camera_, point);
   if (!pixel) return false;
-  const double nearest = nearest_((*pixel)[0] / cell_, (*pixel)[1] / cell_);
+  const double nearest = nearest_((*pixel)[0], (*pixel)[1]);
   return point.z() <= nearest + tolerance * point.z();
 }
 

@@ -19,22 +19,18 @@ namespace ceres_ed {
 std::optional<std::array<int, 2>> PixelOf(const PinholeCamera& camera,
                                           const Eigen::Vector3d& point);
 
-// The nearest depth that occluders leave behind each cell of the picture.
+// The nearest depth that occluders leave behind each pixel.
 class VisibilityBuffer {
  public:
-  // Nothing occludes yet. Cells are squares of `cell` >= 1 pixels: 1 for a mesh; for bare points
-  // CellOfPoints, or what lies behind them shows between them.
-  VisibilityBuffer(const PinholeCamera& camera, int cell);
+  // Nothing occludes yet.
+  explicit VisibilityBuffer(const PinholeCamera& camera);
 
-  // Adds triangles in the camera frame, sampled at the centres of the cells. What is behind the
+  // Adds triangles in the camera frame, sampled at the centres of the pixels. What is behind the
   // camera occludes nothing.
   void AddTriangles(const PointCloud& mesh);
 
-  // The cell for these points (camera frame): twice their distance to one another in the picture,
-  // in the median, so that few cells on a surface stay empty.
-  static int CellOfPoints(const PinholeCamera& camera, const std::vector<Eigen::Vector3d>& points);
-
-  // Adds points in the camera frame: each fills the cell that it falls on.
+  // Adds points in the camera frame as squares parallel to the picture, with a half side of one and
+  // a half times the median distance to the nearest other point: without gaps on a surface.
   void AddPoints(const std::vector<Eigen::Vector3d>& points);
 
   // True for a point in the picture that lies behind no occluder by more than `tolerance` times its
@@ -46,7 +42,6 @@ class VisibilityBuffer {
   void AddTriangle(const Triangle& corners);
 
   PinholeCamera camera_;
-  int cell_;
   // Infinite where nothing is.
   Image<float> nearest_;
 };
