@@ -46,6 +46,8 @@ struct LevelsOptions {
   // at any scale and density. All >= 0.
   double rotation_weight = 1.0;
   double regularization_weight = 0.1;
+  // Of nodes to their average place: holds what nobody sees, and the camera against the tissue.
+  double node_prior_weight = 0.001;
   double plane_weight = 1.0;
   // Of one feature against one plane.
   double feature_weight = 4.0;
