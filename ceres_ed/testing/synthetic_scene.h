@@ -21,7 +21,8 @@ class SyntheticScene {
 
   virtual int num_frames() const = 0;
 
-  // Returns the whole tissue at rest with about `vertices` vertices, at most MaxVertices().
+  // Returns the whole tissue at rest: all of it from MaxVertices() on, else a mesh of about
+  // `vertices` vertices (a strip: at most that many).
   virtual PointCloud RestMesh(int vertices) const = 0;
 
   // Return the most vertices that RestMesh() makes, and the fewest that still show the tissue.

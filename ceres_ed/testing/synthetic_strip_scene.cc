@@ -72,8 +72,11 @@ class StripScene : public SyntheticScene {
   int MinVertices() const override { return VerticesAt(kWidestTruthSpacing); }
 
   PointCloud RestMesh(int vertices) const override {
-    const double area = (length_ + 2.0 * kEnd) * kWidth;
-    const double spacing = std::max(kTruthSpacing, std::sqrt(area / vertices));
+    double spacing = kTruthSpacing;
+    const auto size = [&] {
+      return ((length_ + 2.0 * kEnd) / spacing + 1.0) * (kWidth / spacing + 2.0);
+    };
+    while (vertices < MaxVertices() && size() > vertices) spacing *= 1.01;
     return Band(-kEnd, length_ + kEnd, spacing);
   }
 

@@ -104,9 +104,9 @@ double SyntheticTexture::Lines(const Eigen::Vector3d& rest, double spacing, doub
 }
 
 Eigen::Vector3d SyntheticTexture::Color(const Eigen::Vector3d& rest, double pixel) const {
-  static const Eigen::Vector3d kDark(0.50, 0.16, 0.15);
-  static const Eigen::Vector3d kPale(0.98, 0.66, 0.58);
-  static const Eigen::Vector3d kVessel(0.30, 0.05, 0.09);
+  const Eigen::Vector3d dark(0.50, 0.16, 0.15);
+  const Eigen::Vector3d pale(0.98, 0.66, 0.58);
+  const Eigen::Vector3d wine(0.30, 0.05, 0.09);
   double tone = 0.5;
   std::uint32_t layer = 0;
   for (const auto& [wavelength, contrast] : kMottles) {
@@ -114,9 +114,9 @@ Eigen::Vector3d SyntheticTexture::Color(const Eigen::Vector3d& rest, double pixe
     const double strength = contrast * Resolved(wavelength, pixel);
     if (strength > 0.0) tone += 0.5 * strength * Noise(rest, wavelength, layer);
   }
-  const Eigen::Vector3d tissue = kDark + std::clamp(tone, 0.0, 1.0) * (kPale - kDark);
+  const Eigen::Vector3d tissue = dark + std::clamp(tone, 0.0, 1.0) * (pale - dark);
   const double vessel = std::max(Lines(rest, 0.018, pixel), 0.8 * Lines(rest, 0.007, pixel));
-  return tissue + 0.8 * vessel * (kVessel - tissue);
+  return tissue + 0.8 * vessel * (wine - tissue);
 }
 
 }  // namespace ceres_ed

@@ -235,7 +235,8 @@ TEST(SyntheticSequence, ThinsTruthThatWouldBeTooLarge) {
   EXPECT_EQ(SyntheticSequence(options).truth_note(), "");
   options.max_truth_bytes = 0.5 * 12.0 * 21.0 * double(all);
   const SyntheticSequence thinned(options);
-  EXPECT_NEAR(double(thinned.truth_mesh().size()), 0.5 * double(all), 0.05 * double(all));
+  EXPECT_LE(thinned.truth_mesh().size(), all / 2);
+  EXPECT_GT(double(thinned.truth_mesh().size()), 0.45 * double(all));
   EXPECT_THAT(thinned.truth_note(), HasSubstr("thinned to"));
   options.max_truth_bytes *= 0.1;
   const SyntheticSequence without(options);
