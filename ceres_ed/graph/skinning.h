@@ -40,12 +40,20 @@ class Skinning {
 
   // Appends a point bound to `size` >= 1 nodes.
   void Add(const int* nodes, const double* weights, int size) {
+    nodes_.resize(nodes_.size() + stride_);
+    weights_.resize(weights_.size() + stride_);
+    sizes_.push_back(0);
+    Set(sizes_.size() - 1, nodes, weights, size);
+  }
+
+  // Binds a point that is there anew.
+  void Set(std::size_t point, const int* nodes, const double* weights, int size) {
     CHECK(size >= 1 && size <= stride_) << "binding of " << size << " nodes";
     for (int i = 0; i < stride_; ++i) {
-      nodes_.push_back(i < size ? nodes[i] : -1);
-      weights_.push_back(i < size ? weights[i] : 0.0);
+      nodes_[point * stride_ + i] = i < size ? nodes[i] : -1;
+      weights_[point * stride_ + i] = i < size ? weights[i] : 0.0;
     }
-    sizes_.push_back(static_cast<std::uint8_t>(size));
+    sizes_[point] = static_cast<std::uint8_t>(size);
   }
 
  private:

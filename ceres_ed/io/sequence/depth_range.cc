@@ -1,0 +1,32 @@
+#include "ceres_ed/io/sequence/depth_sequence.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <sstream>
+#include <vector>
+
+namespace ceres_ed {
+
+std::string DepthRangeWarning(const DepthImage& depth, double depth_units_per_metre) {
+  constexpr float kNearest = 1e-3F;
+  constexpr float kFarthest = 100.0F;
+  std::vector<float> measured;
+  measured.reserve(depth.pixels().size());
+  std::copy_if(
+      depth.pixels().begin(), depth.pixels().end(), std::back_inserter(measured), [](float value) {
+        return value > 0.0F;
+      });
+  if (measured.empty()) return "";
+  const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
+  std::nth_element(measured.begin(), middle, measured.end());
+  const float median = *middle;
+  if (median >= kNearest && median <= kFarthest) return "";
+  std::ostringstream sentence;
+  sentence << "the scene is " << median << " m away, "
+           << (median < kNearest ? "nearer than 1 mm" : "farther than 100 m")
+           << ": is the depth really stored as " << depth_units_per_metre << " units per metre?";
+  return sentence.str();
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,223 @@
+#include "ceres_ed/io/sequence/depth_sequence.h"
+
+#include <ceres_ed/io/sequence/picture_files.h>
+#include <ceres_ed/io/sequence/sequence_format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <sstream>
+#include <utility>
+
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+const SequenceFormatReader* FindFormat(SequenceFormat format) {
+  for (const SequenceFormatReader& reader : SequenceFormats()) {
+    if (reader.format == format) return &reader;
+  }
+  return nullptr;
+}
+
+// "DIRECTORY: PROBLEM, expected ..." with what each format needs.
+Status UnknownLayout(const std::string& directory, const std::string& problem) {
+  std::string message = directory + ": " + problem + ", expected";
+  const char* separator = " ";
+  for (const SequenceFormatReader& reader : SequenceFormats()) {
+    message += separator + std::string(reader.needs) + " (" + reader.name + ")";
+    separator = ", or ";
+  }
+  return Status::Error(message);
+}
+
+StatusOr<const SequenceFormatReader*> GuessFormat(const std::string& directory) {
+  for (const SequenceFormatReader& reader : SequenceFormats()) {
+    if (IsFile(JoinPath(directory, reader.mark))) return &reader;
+  }
+  return UnknownLayout(directory,
+                       IsEmptyFolder(directory) ? "the folder is empty"
+                                                : "no layout of a depth sequence that is known");
+}
+
+// Leaves the frames that the options select.
+Status SelectFrames(const std::string& directory,
+                    const SequenceOptions& options,
+                    std::vector<SequenceEntry>* entries) {
+  const int end = entries->back().number;
+  if (options.first > end) {
+    return Status::Error(directory + ": first is " + std::to_string(options.first) +
+                         ", expected at most " + std::to_string(end) + ", the last frame there is");
+  }
+  const auto is_left_out = [&options](const SequenceEntry& entry) {
+    return entry.number < options.first || (options.last >= 0 && entry.number > options.last);
+  };
+  const int begin = entries->front().number;
+  entries->erase(std::remove_if(entries->begin(), entries->end(), is_left_out), entries->end());
+  if (!entries->empty()) return Status::Ok();
+  return Status::Error(directory + ": no frame from first = " + std::to_string(options.first) +
+                       " to last = " + std::to_string(options.last) + ", expected some of the " +
+                       "frames there are, " + std::to_string(begin) + " to " + std::to_string(end));
+}
+
+// A sentence about a gap in the numbers, or nothing. Numbers may well go by tens: the smallest
+// distance of two counts as none.
+std::string GapWarning(const std::vector<SequenceEntry>& entries) {
+  int stride = entries.back().number - entries.front().number;
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    stride = std::min(stride, entries[i].number - entries[i - 1].number);
+  }
+  int num_gaps = 0;
+  std::string first_gap;
+  for (std::size_t i = 1; i < entries.size(); ++i) {
+    if (entries[i].number - entries[i - 1].number == stride) continue;
+    ++num_gaps;
+    if (num_gaps > 1) continue;
+    first_gap = "frame " + std::to_string(entries[i - 1].number) + " is followed by " +
+                std::to_string(entries[i].number);
+  }
+  if (num_gaps == 0) return "";
+  const std::string count = num_gaps == 1 ? "1 gap" : std::to_string(num_gaps) + " gaps";
+  return count + " in the frame numbers: " + first_gap +
+         (num_gaps == 1 ? "" : " (the first of them)");
+}
+
+// A sentence about the frames that lack something, or nothing.
+std::string LackWarning(const std::vector<SequenceEntry>& entries,
+                        const char* what,
+                        const std::function<bool(const SequenceEntry&)>& lacks) {
+  constexpr std::size_t kMaxNamed = 5;
+  std::size_t count = 0;
+  std::string numbers;
+  for (const SequenceEntry& entry : entries) {
+    if (!lacks(entry)) continue;
+    ++count;
+    if (count <= kMaxNamed) numbers += (count == 1 ? "" : ", ") + std::to_string(entry.number);
+  }
+  if (count == 0) return "";
+  return std::to_string(count) + " of " + std::to_string(entries.size()) + " frames without " +
+         what + ": " + numbers + (count > kMaxNamed ? " ..." : "");
+}
+
+void AddWarnings(SequenceListing* listing) {
+  const std::vector<SequenceEntry>& entries = listing->entries;
+  std::vector<std::string> sentences = {GapWarning(entries)};
+  if (listing->has_color) {
+    sentences.push_back(LackWarning(
+        entries, "colour", [](const SequenceEntry& entry) { return entry.color_path.empty(); }));
+  }
+  if (listing->has_masks) {
+    sentences.push_back(
+        LackWarning(entries, "a mask (all of their depth counts)", [](const SequenceEntry& entry) {
+          return entry.mask_path.empty();
+        }));
+  }
+  if (listing->has_poses) {
+    sentences.push_back(LackWarning(entries, "a given pose", [](const SequenceEntry& entry) {
+      return !entry.world_from_camera.has_value();
+    }));
+  }
+  for (std::string& sentence : sentences) {
+    if (!sentence.empty()) listing->warnings.push_back(std::move(sentence));
+  }
+}
+
+// Every step-th entry from the first one.
+void Thin(int step, std::vector<SequenceEntry>* entries) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < entries->size(); i += static_cast<std::size_t>(step)) {
+    if (i != kept) (*entries)[kept] = std::move((*entries)[i]);
+    ++kept;
+  }
+  entries->resize(kept);
+}
+
+std::string Describe(const SequenceFormatReader& reader,
+                     bool is_guessed,
+                     const SequenceListing& listing) {
+  std::ostringstream text;
+  text << reader.name;
+  if (is_guessed) text << " (guessed: there is " << reader.mark << ")";
+  const std::size_t num_frames = listing.entries.size();
+  text << ", " << num_frames << (num_frames == 1 ? " frame: " : " frames: ")
+       << listing.entries.front().number;
+  if (num_frames > 1) text << " to " << listing.entries.back().number;
+  text << ", " << listing.camera.camera.width << " x " << listing.camera.camera.height
+       << " pixels, " << listing.camera.depth_units_per_metre << " depth units per metre, "
+       << (listing.has_color ? "" : "no ") << "colour, " << (listing.has_masks ? "" : "no ")
+       << "masks, " << (listing.has_poses ? "" : "no ") << "poses";
+  return text.str();
+}
+
+}  // namespace
+
+std::string SequenceFormatName(SequenceFormat format) {
+  if (format == SequenceFormat::kAuto) return "auto";
+  const SequenceFormatReader* reader = FindFormat(format);
+  CHECK(reader != nullptr) << "format " << static_cast<int>(format) << " is not in the table";
+  return reader->name;
+}
+
+StatusOr<SequenceFormat> ParseSequenceFormat(const std::string& name) {
+  std::string names = "auto";
+  if (name == names) return SequenceFormat::kAuto;
+  for (const SequenceFormatReader& reader : SequenceFormats()) {
+    if (name == reader.name) return reader.format;
+    names += std::string(", ") + reader.name;
+  }
+  return Status::Error("the format is '" + name + "', expected one of: " + names);
+}
+
+bool SequenceOptions::IsValid(std::string* error) const {
+  const auto refuse = [error](const char* name, double value, const std::string& expected) {
+    std::ostringstream message;
+    message << name << " is " << value << ", expected " << expected;
+    *error = message.str();
+    return false;
+  };
+  if (first < 0) return refuse("first", first, "a frame number >= 0");
+  if (last < -1) return refuse("last", last, "a frame number, or -1 for the end");
+  if (last >= 0 && last < first) {
+    return refuse("last", last, "at least first, which is " + std::to_string(first));
+  }
+  if (step < 1) return refuse("step", step, "a step >= 1");
+  if (!std::isfinite(depth_units_per_metre) || depth_units_per_metre < 0.0) {
+    return refuse("depth_units_per_metre", depth_units_per_metre, "a number > 0, or 0");
+  }
+  return true;
+}
+
+StatusOr<std::unique_ptr<DepthSequence>> OpenSequence(const std::string& directory,
+                                                      const SequenceOptions& options) {
+  std::string error;
+  if (!options.IsValid(&error)) return Status::Error(error);
+  if (!IsFolder(directory)) {
+    return Status::Error(directory + ": " + (IsFile(directory) ? "is a file" : "no such folder") +
+                         ", expected the folder of a depth sequence");
+  }
+  const bool is_guessed = options.format == SequenceFormat::kAuto;
+  const StatusOr<const SequenceFormatReader*> reader =
+      is_guessed ? GuessFormat(directory) : FindFormat(options.format);
+  if (!reader.ok()) return reader.status();
+  CHECK(*reader != nullptr) << "no reader of format " << static_cast<int>(options.format);
+  StatusOr<SequenceListing> listing = (*reader)->list(directory);
+  if (!listing.ok()) return listing.status();
+
+  Status selected = SelectFrames(directory, options, &listing->entries);
+  if (!selected.ok()) return selected;
+  if (options.depth_units_per_metre > 0.0) {
+    listing->camera.depth_units_per_metre = options.depth_units_per_metre;
+  }
+  if (!options.color) {
+    listing->has_color = false;
+    for (SequenceEntry& entry : listing->entries) entry.color_path.clear();
+  }
+  AddWarnings(&*listing);
+  Thin(options.step, &listing->entries);
+  std::string description = Describe(**reader, is_guessed, *listing);
+  return std::make_unique<DepthSequence>(std::move(*listing), std::move(description));
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,184 @@
+#include "ceres_ed/io/sequence/picture_files.h"
+
+#include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/text.h>
+#include <ceres_ed/io/text_rows.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string Lowercase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) {
+    return static_cast<char>(std::tolower(c));
+  });
+  return text;
+}
+
+// The number in the digits that end the name's stem; nothing when there are none or too many.
+std::optional<int> FrameNumber(const fs::path& name) {
+  const std::string stem = name.stem().string();
+  const std::size_t last_other = stem.find_last_not_of("0123456789");
+  const std::size_t begin = last_other == std::string::npos ? 0 : last_other + 1;
+  const StatusOr<int> number = ParseNatural("", "", std::string_view(stem).substr(begin));
+  if (!number.ok()) return std::nullopt;
+  return *number;
+}
+
+// The pictures of a folder by number.
+StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& folder,
+                                                          bool lossless_only,
+                                                          std::vector<std::string>* warnings) {
+  std::error_code error;
+  std::vector<fs::path> names;
+  fs::directory_iterator file(folder, error);
+  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
+    const fs::path name = file->path().filename();
+    const std::string extension = Lowercase(name.extension().string());
+    const bool is_picture =
+        extension == ".png" || (!lossless_only && (extension == ".jpg" || extension == ".jpeg"));
+    // Some systems leave hidden twins of every file behind.
+    const bool is_hidden = name.string()[0] == '.';
+    if (is_picture && !is_hidden && IsFile(file->path().string())) names.push_back(name);
+  }
+  if (error) return Status::Error(folder + ": cannot be listed: " + error.message());
+  std::sort(names.begin(), names.end());
+
+  std::map<int, std::string> pictures;
+  int num_without_number = 0;
+  for (const fs::path& name : names) {
+    const std::optional<int> number = FrameNumber(name);
+    if (!number.has_value()) {
+      ++num_without_number;
+      continue;
+    }
+    const auto [entry, is_new] = pictures.emplace(*number, JoinPath(folder, name.string()));
+    if (!is_new) {
+      return Status::Error(entry->second + ": frame " + std::to_string(*number) + " is in " +
+                           Quoted(name.string()) + " too, expected one file a frame");
+    }
+  }
+  if (num_without_number > 0) {
+    warnings->push_back(folder + ": names of " + std::to_string(num_without_number) +
+                        " pictures do not end in a frame number; they are left out");
+  }
+  return pictures;
+}
+
+// The path of a number, or an empty one.
+std::string PathOf(const std::map<int, std::string>& pictures, int number) {
+  const auto entry = pictures.find(number);
+  return entry == pictures.end() ? std::string() : entry->second;
+}
+
+}  // namespace
+
+std::string JoinPath(const std::string& directory, const std::string& name) {
+  return (fs::path(directory) / name).string();
+}
+
+bool IsFolder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
+
+bool IsFile(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+bool IsEmptyFolder(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_empty(path, ignored);
+}
+
+StatusOr<std::pair<int, int>> ReadPictureSize(const std::string& path) {
+  // Signature, length and name of the first chunk, width, height.
+  constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
+  std::array<char, 24> header{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(header.data(), header.size());
+  const auto read_big_endian = [&header](std::size_t begin) {
+    std::uint32_t number = 0;
+    for (std::size_t i = begin; i < begin + 4; ++i) {
+      number = number << 8U | static_cast<unsigned char>(header[i]);
+    }
+    return number;
+  };
+  constexpr std::uint32_t kLargest = 32768;
+  if (file && std::string_view(header.data(), kPngStart.size()) == kPngStart) {
+    const std::uint32_t width = read_big_endian(16);
+    const std::uint32_t height = read_big_endian(20);
+    if (width > 0 && height > 0 && width <= kLargest && height <= kLargest) {
+      return std::make_pair(static_cast<int>(width), static_cast<int>(height));
+    }
+  }
+  const StatusOr<DepthImage> depth = ReadDepthImage(path, 1.0);
+  if (!depth.ok()) return depth.status();
+  return std::make_pair(depth->width(), depth->height());
+}
+
+Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCamera* camera) {
+  Status first_error = Status::Ok();
+  for (const SequenceEntry& entry : entries) {
+    const StatusOr<std::pair<int, int>> size = ReadPictureSize(entry.depth_path);
+    if (size.ok()) {
+      camera->width = size->first;
+      camera->height = size->second;
+      return Status::Ok();
+    }
+    if (first_error.ok()) first_error = size.status();
+  }
+  CHECK(!first_error.ok()) << "a sequence has at least one frame";
+  return first_error;
+}
+
+StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders) {
+  if (!IsFolder(folders.depth)) {
+    return Status::Error(folders.depth + ": no such folder, expected depth pictures in it");
+  }
+  SequenceListing listing;
+  const auto list = [&listing](const std::string& folder, bool lossless_only) {
+    using Pictures = std::map<int, std::string>;
+    if (!IsFolder(folder)) return StatusOr<Pictures>(Pictures());
+    return ListNumberedPictures(folder, lossless_only, &listing.warnings);
+  };
+  const StatusOr<std::map<int, std::string>> depths = list(folders.depth, true);
+  if (!depths.ok()) return depths.status();
+  if (depths->empty()) {
+    return Status::Error(folders.depth + ": no depth, expected at least one NNNNNN.png of 16 bits");
+  }
+  const StatusOr<std::map<int, std::string>> colors = list(folders.color, false);
+  if (!colors.ok()) return colors.status();
+  const StatusOr<std::map<int, std::string>> masks = list(folders.mask, false);
+  if (!masks.ok()) return masks.status();
+
+  for (const auto& [number, path] : *depths) {
+    SequenceEntry entry;
+    entry.number = number;
+    entry.time_s = number;
+    entry.depth_path = path;
+    entry.color_path = PathOf(*colors, number);
+    entry.mask_path = PathOf(*masks, number);
+    listing.entries.push_back(std::move(entry));
+  }
+  listing.has_color = !colors->empty();
+  listing.has_masks = !masks->empty();
+  return listing;
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,77 @@
+#include "ceres_ed/slam/deformable_map.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <cost_functions/node_parameters.h>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+
+int DeformableMap::AddNode(const Eigen::Vector3d& at_rest,
+                           const Eigen::Vector3d& now,
+                           const Eigen::Matrix3d& affine) {
+  const int node = graph_.AddNode(at_rest);
+  state_.Resize(node + 1);
+  MutableNodeAffine(state_.node(node)) = affine;
+  MutableNodeTranslation(state_.node(node)) = now - at_rest;
+  points_of_node_.emplace_back();
+  return node;
+}
+
+int DeformableMap::AddPoint(MapPoint point, const Binding& binding) {
+  CHECK_GE(binding.size, 1);
+  point.id = next_id_++;
+  int slot = 0;
+  if (free_slots_.empty()) {
+    slot = num_slots();
+    points_.push_back(std::move(point));
+    skinning_.Add(binding.nodes, binding.weights, binding.size);
+  } else {
+    slot = free_slots_.back();
+    free_slots_.pop_back();
+    points_[slot] = std::move(point);
+    skinning_.Set(slot, binding.nodes, binding.weights, binding.size);
+  }
+  points_of_node_[binding.nodes[0]].push_back(slot);
+  ++num_points_;
+  return slot;
+}
+
+void DeformableMap::Rebind(int slot, const Binding& binding) {
+  Detach(slot);
+  skinning_.Set(slot, binding.nodes, binding.weights, binding.size);
+  points_of_node_[binding.nodes[0]].push_back(slot);
+}
+
+void DeformableMap::RemovePoint(int slot) {
+  CHECK(alive(slot)) << "slot " << slot;
+  Detach(slot);
+  points_[slot].id = -1;
+  free_slots_.push_back(slot);
+  --num_points_;
+}
+
+void DeformableMap::Detach(int slot) {
+  std::vector<int>& owner = points_of_node_[skinning_[slot].nodes[0]];
+  owner.erase(std::find(owner.begin(), owner.end(), slot));
+}
+
+Eigen::Vector3d DeformableMap::NodePosition(int node) const {
+  return graph_.position(node) + NodeTranslation(state_.node(node));
+}
+
+LocalWarp DeformableMap::WarpOf(const Binding& binding) const {
+  LocalWarp warp;
+  warp.gradient.setZero();
+  for (int i = 0; i < binding.size; ++i) {
+    const int j = binding.nodes[i];
+    const double w = binding.weights[i];
+    const auto affine = NodeAffine(state_.node(j));
+    warp.gradient += w * affine;
+    warp.offset += w * (NodePosition(j) - affine * graph_.position(j));
+  }
+  return warp;
+}
+
+}  // namespace ceres_ed

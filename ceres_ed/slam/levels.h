@@ -1,0 +1,118 @@
+// The levels of a frame: camera and PR nodes against the depth image, then the PI nodes.
+#ifndef CERES_ED_SLAM_LEVELS_H_
+#define CERES_ED_SLAM_LEVELS_H_
+
+#include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/energy/energy_spec.h>
+#include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/slam/deformable_map.h>
+#include <ceres_ed/slam/level_window.h>
+#include <ceres_ed/solver/level_solver.h>
+#include <ceres_ed/util/status.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// A point of the map, or between its points, and where it was seen.
+struct MapObservation {
+  // At rest.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+  Binding binding;
+  // Camera frame, map units.
+  Eigen::Vector3d target = Eigen::Vector3d::Zero();
+  // Of the observed surface, camera frame, unit length.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double weight = 1.0;
+};
+
+// What a frame has to say of the map.
+struct FrameObservations {
+  // Against tangent planes.
+  std::vector<MapObservation> planes;
+  // Of a plane's distance, map units: where the loss gives way.
+  double plane_width = 1.0;
+  // Point to point.
+  std::vector<MapObservation> features;
+  double feature_width = 1.0;
+};
+
+struct LevelsOptions {
+  // Lengths are node spacings, and the data are counted per PR node, so that these mean the same
+  // at any scale and density. All >= 0.
+  double rotation_weight = 1.0;
+  double regularization_weight = 0.1;
+  double plane_weight = 1.0;
+  // Of one feature against one plane.
+  double feature_weight = 4.0;
+  // Pull of the pose prior: spreads in degrees and map units, > 0.
+  double prior_rotation_deg = 0.5;
+  double prior_translation = 0.1;
+  bool camera_variable = true;
+  // Rings of PI nodes that Level I moves too; -1 moves every node: the batch solve.
+  int rings = 2;
+  SeamEdges seam_edges = SeamEdges::kKeep;
+  LinearSolver linear_solver = LinearSolver::kBlock;
+  SolverOptions solver;
+  // More energies, by name.
+  std::vector<EnergySpec> energies;
+};
+
+// What a level did; times in seconds.
+struct LevelReport {
+  SolveStatus status = SolveStatus::kConverged;
+  int variable_nodes = 0;
+  int point_relevant = 0;
+  int iterations = 0;
+  // The energy of the level's problem at the end.
+  double energy = 0.0;
+};
+
+// Builds and solves the levels of frame after frame; keeps what the solvers keep.
+class Levels {
+ public:
+  // Error: an unknown energy or parameter.
+  static StatusOr<std::unique_ptr<Levels>> Create(const LevelsOptions& options,
+                                                  const EnergyRegistry& registry);
+
+  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved.
+  LevelReport SolveLevelOne(const FrameObservations& observations, DeformableMap* map);
+
+  // Level II (Eq. 15): moves the nodes that Level I has held.
+  LevelReport SolveLevelTwo(DeformableMap* map);
+
+  // 1 for each node that the last Level I moved.
+  const std::vector<char>& moved_nodes() const { return moved_; }
+  // 1 for each PR node of the last Level I.
+  const std::vector<char>& point_relevant() const { return point_relevant_; }
+
+ private:
+  // A term and how it is weighed.
+  struct Term {
+    std::string name;
+    std::unique_ptr<EnergyTerm> energy;
+    double weight = 1.0;
+    LossSpec loss;
+    bool observation = false;
+  };
+
+  explicit Levels(const LevelsOptions& options) : options_(options) {}
+  void MarkPointRelevant(const FrameObservations& observations, int num_nodes);
+  std::vector<int> VariableNodes(const DeformableMap& map);
+
+  LevelsOptions options_;
+  std::vector<Term> terms_;
+  LevelWindowBuilder windows_;
+  std::unique_ptr<LevelSolver> level_one_;
+  std::unique_ptr<LevelSolver> level_two_;
+  std::vector<char> point_relevant_;
+  std::vector<char> moved_;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SLAM_LEVELS_H_

@@ -1,0 +1,69 @@
+// New points where the camera sees what the map lacks, and new nodes where coverage ends.
+#ifndef CERES_ED_SLAM_MAP_GROWTH_H_
+#define CERES_ED_SLAM_MAP_GROWTH_H_
+
+#include <ceres_ed/geometry/images.h>
+#include <ceres_ed/slam/deformable_map.h>
+#include <ceres_ed/slam/observed_surface.h>
+#include <ceres_ed/slam/visibility.h>
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// Lengths in map units (node spacings).
+struct MapGrowthOptions {
+  // Between new points, > 0.
+  double point_spacing = 0.2;
+  // A point farther from every node than this asks for a new node, > 0.
+  double node_coverage = 1.0;
+  // Partners that a new node takes, >= 1.
+  int edges_per_node = 6;
+  // Patches turned farther from the camera are left until they are seen better, degrees.
+  double max_view_angle_deg = 75.0;
+};
+
+struct MapGrowthResult {
+  int new_points = 0;
+  int new_nodes = 0;
+};
+
+// Binds places on the map, as it is deformed now, to the nodes nearest to them (Eq. 2).
+class PlaceBinder {
+ public:
+  // Sees the nodes near the picture.
+  PlaceBinder(const DeformableMap& map,
+              const CameraPose& camera_from_map,
+              const PinholeCamera& camera);
+
+  // Adds a node that is new in the map.
+  void AddNode(const DeformableMap& map, int node);
+  bool empty() const { return nodes_.empty(); }
+  // Distance to the nearest node; infinite when there is none.
+  double DistanceTo(const Eigen::Vector3d& place) const;
+  // The `count` nearest nodes, nearest first.
+  std::vector<int> Nearest(const Eigen::Vector3d& place, int count) const;
+  // A binding of `neighbors` nodes; valid until the next call. Needs one node at least.
+  Binding Bind(const Eigen::Vector3d& place, int neighbors);
+
+ private:
+  std::vector<int> nodes_;
+  std::vector<Eigen::Vector3d> positions_;
+  // For Bind().
+  int bound_nodes_[kMaxBoundNodes];
+  double weights_[kMaxBoundNodes];
+};
+
+// Adds to the map what `surface` shows and `visible` points don't cover.
+MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
+                        const ObservedSurface& surface,
+                        const ColorImage& color,
+                        int frame,
+                        const MapGrowthOptions& options,
+                        DeformableMap* map);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SLAM_MAP_GROWTH_H_

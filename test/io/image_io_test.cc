@@ -1,0 +1,166 @@
+#include "ceres_ed/io/image_io.h"
+
+#include "io_test_util.h"
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+// PNGs made by hand with zlib: grey 3 x 1 of 8 bits (0 7 255), grey 4 x 1 of 16 bits
+// (0 1 258 65535), red-green-blue 1 x 1 of 16 bits.
+constexpr char kGrey8[] =
+    "89504e470d0a1a0a0000000d49484452000000030000000108000000003e8b4b680000000c4944415478da6360"
+    "60ff0f00011101077215cd730000000049454e44ae426082";
+constexpr char kGrey16[] =
+    "89504e470d0a1a0a0000000d49484452000000040000000110000000008cc78c52000000114944415478da6360"
+    "6060606464faff1f00031502034e153b4c0000000049454e44ae426082";
+constexpr char kColor16[] =
+    "89504e470d0a1a0a0000000d4948445200000001000000011002000000c0e78f9d0000000f4944415478da6360"
+    "64626661650300003f001698c168130000000049454e44ae426082";
+
+std::string FromHex(const std::string& hex) {
+  std::string bytes;
+  for (std::size_t i = 0; i < hex.size(); i += 2) {
+    bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));
+  }
+  return bytes;
+}
+
+class Images : public ::testing::Test {
+ protected:
+  TemporaryDirectory directory_;
+  std::string path_ = directory_ / "image.png";
+};
+
+TEST_F(Images, DepthOf16BitsIsUnitsInMetres) {
+  WriteBytes(path_, FromHex(kGrey16));
+  const StatusOr<DepthImage> depth = ReadDepthImage(path_, 1000.0);
+  ASSERT_TRUE(depth.ok()) << depth.status().message();
+  EXPECT_EQ(depth->width(), 4);
+  EXPECT_EQ(depth->height(), 1);
+  EXPECT_THAT(depth->pixels(), ElementsAre(0.0F, 0.001F, 0.258F, 65.535F));
+}
+
+TEST_F(Images, DepthOf8BitsIsUnitsInMetres) {
+  WriteBytes(path_, FromHex(kGrey8));
+  const StatusOr<DepthImage> depth = ReadDepthImage(path_, 100.0);
+  ASSERT_TRUE(depth.ok()) << depth.status().message();
+  EXPECT_THAT(depth->pixels(), ElementsAre(0.0F, 0.07F, 2.55F));
+}
+
+TEST_F(Images, DepthOfEveryUnitSurvivesTheRoundTrip) {
+  // All 65536 numbers, at units of both sides of what sensors have.
+  for (const double units_per_metre : {1000.0, 5000.0, 100000.0}) {
+    DepthImage written(256, 256);
+    for (int v = 0; v < 256; ++v) {
+      for (int u = 0; u < 256; ++u) {
+        written(u, v) = static_cast<float>((256 * v + u) / units_per_metre);
+      }
+    }
+    ASSERT_TRUE(WriteDepthImage(path_, written, units_per_metre).ok());
+    const StatusOr<DepthImage> read = ReadDepthImage(path_, units_per_metre);
+    ASSERT_TRUE(read.ok()) << read.status().message();
+    EXPECT_EQ(read->width(), 256);
+    EXPECT_EQ(read->pixels(), written.pixels()) << units_per_metre;
+  }
+}
+
+TEST_F(Images, DepthIsRoundedAndWhatDoesNotFitIsNone) {
+  DepthImage written(8, 1);
+  written.pixels() = {0.0014F,
+                      0.0016F,
+                      0.0004F,
+                      -1.0F,
+                      std::numeric_limits<float>::quiet_NaN(),
+                      std::numeric_limits<float>::infinity(),
+                      65.535F,
+                      65.6F};
+  ASSERT_TRUE(WriteDepthImage(path_, written, 1000.0).ok());
+  const StatusOr<DepthImage> read = ReadDepthImage(path_, 1000.0);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_THAT(read->pixels(), ElementsAre(0.001F, 0.002F, 0.0F, 0.0F, 0.0F, 0.0F, 65.535F, 0.0F));
+}
+
+TEST_F(Images, ColorSurvivesTheRoundTripWithItsChannelsInOrder) {
+  ColorImage written(2, 3);
+  for (int v = 0; v < 3; ++v) {
+    for (int u = 0; u < 2; ++u) {
+      written(u, v) = {
+          static_cast<std::uint8_t>(10 * v + u), static_cast<std::uint8_t>(100 + v), 255};
+    }
+  }
+  ASSERT_TRUE(WriteColorImage(path_, written).ok());
+  const StatusOr<ColorImage> read = ReadColorImage(path_);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_EQ(read->width(), 2);
+  EXPECT_EQ(read->pixels(), written.pixels());
+}
+
+TEST_F(Images, GreyPictureIsColorWithEqualChannels) {
+  WriteBytes(path_, FromHex(kGrey8));
+  const StatusOr<ColorImage> color = ReadColorImage(path_);
+  ASSERT_TRUE(color.ok()) << color.status().message();
+  using Rgb = std::array<std::uint8_t, 3>;
+  EXPECT_THAT(color->pixels(), ElementsAre(Rgb{0, 0, 0}, Rgb{7, 7, 7}, Rgb{255, 255, 255}));
+}
+
+TEST_F(Images, MaskIsWhatIsNotBlack) {
+  WriteBytes(path_, FromHex(kGrey8));
+  const StatusOr<MaskImage> grey = ReadMaskImage(path_);
+  ASSERT_TRUE(grey.ok()) << grey.status().message();
+  EXPECT_THAT(grey->pixels(), ElementsAre(0, 1, 1));
+  ColorImage color(2, 1);
+  color(1, 0) = {0, 0, 1};
+  ASSERT_TRUE(WriteColorImage(path_, color).ok());
+  const StatusOr<MaskImage> blue = ReadMaskImage(path_);
+  ASSERT_TRUE(blue.ok()) << blue.status().message();
+  EXPECT_THAT(blue->pixels(), ElementsAre(0, 1));
+}
+
+TEST_F(Images, ColoursAreNoDepth) {
+  ASSERT_TRUE(WriteColorImage(path_, ColorImage(2, 2)).ok());
+  EXPECT_EQ(ReadDepthImage(path_, 1000.0).status().message(),
+            path_ + ": 3 channels of 8 bits, expected depth as one channel of 16 bits");
+  WriteBytes(path_, FromHex(kColor16));
+  EXPECT_EQ(ReadDepthImage(path_, 1000.0).status().message(),
+            path_ + ": 3 channels of 16 bits, expected depth as one channel of 16 bits");
+}
+
+TEST_F(Images, MissingOrDamagedFileIsAnErrorThatNamesIt) {
+  const std::string whole = FromHex(kGrey16);
+  std::string changed = whole;
+  changed[45] = static_cast<char>(changed[45] ^ 0x55);  // Inside the compressed rows.
+  for (const std::string& bytes : {std::string(),
+                                   std::string("no picture"),
+                                   whole.substr(0, 20),
+                                   whole.substr(0, 48),
+                                   changed}) {
+    WriteBytes(path_, bytes);
+    EXPECT_THAT(ReadDepthImage(path_, 1000.0).status().message(), HasSubstr(path_ + ": "))
+        << bytes.size();
+    EXPECT_THAT(ReadColorImage(path_).status().message(), HasSubstr(path_ + ": "));
+    EXPECT_THAT(ReadMaskImage(path_).status().message(), HasSubstr(path_ + ": "));
+  }
+  const std::string missing = directory_ / "none.png";
+  EXPECT_THAT(ReadDepthImage(missing, 1000.0).status().message(), HasSubstr(missing + ": "));
+  EXPECT_THAT(ReadColorImage(directory_.path()).status().message(), HasSubstr(directory_.path()));
+}
+
+TEST_F(Images, UnwritablePathIsAnErrorThatNamesIt) {
+  const std::string path = directory_ / "none/depth.png";
+  EXPECT_THAT(WriteDepthImage(path, DepthImage(2, 2, 1.0F), 1000.0).message(), HasSubstr(path));
+  EXPECT_THAT(WriteColorImage(path, ColorImage(2, 2)).message(), HasSubstr(path));
+}
+
+}  // namespace
+}  // namespace ceres_ed
