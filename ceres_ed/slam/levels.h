@@ -70,7 +70,8 @@ struct LevelReport {
   int variable_nodes = 0;
   int point_relevant = 0;
   int iterations = 0;
-  // The energy of the level's problem at the end.
+  // The energy of the level's problem before and after.
+  double initial_energy = 0.0;
   double energy = 0.0;
 };
 
@@ -81,7 +82,9 @@ class Levels {
   static StatusOr<std::unique_ptr<Levels>> Create(const LevelsOptions& options,
                                                   const EnergyRegistry& registry);
 
-  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved.
+  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved. One
+  // step of the solver, for the observations change with it; more only where that one brings
+  // nothing.
   LevelReport SolveLevelOne(const FrameObservations& observations, DeformableMap* map);
 
   // Level II (Eq. 15): moves the nodes that Level I has held.

@@ -45,8 +45,8 @@ struct SlamOptions {
   int neighbors = 4;
   // Follow corners of the colour image, where there is one.
   bool features = true;
-  // Times that a frame is associated and Level I solved, >= 1.
-  int rounds = 2;
+  // Times at most that a frame is associated and Level I takes a step, >= 1.
+  int rounds = 4;
   // Observations that Level I takes, evenly chosen among more, >= 100.
   int max_observations = 6000;
   // Number of observations after which the running average of a point forgets, >= 1.
