@@ -19,10 +19,13 @@ void ExchangePose(const std::string& name, CameraPose* pose, CheckpointArchive* 
 
 // Rows of a list whose length is not known when it is loaded.
 template <typename Row>
-void ExchangeCount(const std::string& name, std::vector<Row>* rows, CheckpointArchive* archive) {
+void ExchangeCount(const std::string& name,
+                   std::vector<Row>* rows,
+                   CheckpointArchive* archive,
+                   const Row& fresh = Row()) {
   int count = static_cast<int>(rows->size());
   archive->Value(name, &count);
-  if (!archive->saving()) rows->assign(static_cast<std::size_t>(std::max(0, count)), Row());
+  if (!archive->saving()) rows->assign(static_cast<std::size_t>(std::max(0, count)), fresh);
 }
 
 void ExchangeFlags(const std::string& name, std::vector<char>* flags, CheckpointArchive* archive) {
@@ -49,7 +52,7 @@ void DeformableMap::Exchange(CheckpointArchive* archive) {
 
 void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
   std::vector<Eigen::Vector3d> positions = graph_.positions();
-  ExchangeCount("nodes", &positions, archive);
+  ExchangeCount<Eigen::Vector3d>("nodes", &positions, archive, Eigen::Vector3d::Zero());
   archive->Column(
       "node_positions", &positions, [](auto& p) -> auto& { return p; });
   std::vector<GraphEdge> edges = graph_.edges();
