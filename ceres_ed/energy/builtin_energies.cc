@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include <cost_functions/node_prior_cost.h>
 #include <cost_functions/point_to_plane_cost.h>
 #include <cost_functions/point_to_point_cost.h>
 #include <cost_functions/pose_prior_cost.h>
@@ -38,6 +39,22 @@ class RegularizationEnergy final : public EnergyTerm {
                     graph.position(edge.from), graph.position(edge.to), edge.weight)),
                 blocks,
                 2);
+    }
+  }
+};
+
+class NodePriorEnergy final : public EnergyTerm {
+ public:
+  EnergyKind kind() const override { return EnergyKind::kPrior; }
+
+  void AddResiduals(const EnergyContext& context, ResidualSink* sink) const override {
+    if (context.node_prior == nullptr) return;
+    for (int j = 0; j < context.graph->num_nodes(); ++j) {
+      const BlockRef block = BlockRef::Node(j);
+      sink->Add(
+          std::unique_ptr<ceres::CostFunction>(NodePriorCost::Create((*context.node_prior)[j])),
+          &block,
+          1);
     }
   }
 };
@@ -98,6 +115,14 @@ void RegisterPriors(EnergyRegistry* registry) {
                  EnergyKind::kPrior,
                  {}},
                 [](const ParameterValues&) { return std::make_unique<RegularizationEnergy>(); });
+  RegisterOrDie(registry,
+                {"node_prior",
+                 "nodes stay near where they are thought to be",
+                 "t_j - t_prior",
+                 "length",
+                 EnergyKind::kPrior,
+                 {}},
+                [](const ParameterValues&) { return std::make_unique<NodePriorEnergy>(); });
   RegisterOrDie(
       registry,
       {"pose_prior",

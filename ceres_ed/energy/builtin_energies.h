@@ -6,8 +6,8 @@
 
 namespace ceres_ed {
 
-// Adds rotation, regularization, point_to_plane, point_to_point, landmark and pose_prior.
-// CHECK-fails when one of these names is taken: call it first.
+// Adds rotation, regularization, node_prior, pose_prior, point_to_plane, point_to_point and
+// landmark. CHECK-fails when one of these names is taken: call it first.
 void RegisterBuiltinEnergies(EnergyRegistry* registry);
 
 }  // namespace ceres_ed

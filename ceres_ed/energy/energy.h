@@ -90,7 +90,7 @@ struct Correspondence {
   double weight = 1.0;
 };
 
-// What energies may look at. Pointers are never null; lists may be empty.
+// What energies may look at. Pointers are never null unless said so; lists may be empty.
 struct EnergyContext {
   const DeformationGraph* graph = nullptr;
   // Points at rest, map units, and the nodes that carry them.
@@ -104,6 +104,8 @@ struct EnergyContext {
   bool has_camera = false;
   // Where the camera is thought to be before the solve.
   CameraPose camera_prior;
+  // t_j where each node is thought to be before the solve, one a node; null where nothing is known.
+  const std::vector<Eigen::Vector3d>* node_prior = nullptr;
 };
 
 // Where an energy puts its residuals.

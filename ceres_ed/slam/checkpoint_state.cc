@@ -65,6 +65,10 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
     parameters.insert(parameters.end(), state_.node(j), state_.node(j) + kNodeSize);
   }
   archive->Array("node_parameters", &parameters);
+  if (!archive->saving()) mean_translations_.assign(positions.size(), Eigen::Vector3d::Zero());
+  archive->Column(
+      "mean_translations", &mean_translations_, [](auto& t) -> auto& { return t; });
+  archive->Array("times_averaged", &times_averaged_);
   ExchangePose("camera_from_map", &state_.camera_from_map, archive);
   if (archive->saving() || !archive->status().ok()) return;
   graph_ = DeformationGraph();
@@ -166,6 +170,7 @@ void Levels::Exchange(CheckpointArchive* archive) {
 void DeformableSlam::Exchange(CheckpointArchive* archive) {
   archive->Enter("slam");
   archive->Value("unit", &unit_);
+  ExchangePose("world_from_map", &world_from_map_, archive);
   ExchangePose("camera_step", &camera_step_, archive);
   map_.Exchange(archive);
   features_.Exchange(archive);

@@ -16,6 +16,8 @@ int DeformableMap::AddNode(const Eigen::Vector3d& at_rest,
   MutableNodeAffine(state_.node(node)) = affine;
   MutableNodeTranslation(state_.node(node)) = now - at_rest;
   points_of_node_.emplace_back();
+  mean_translations_.push_back(now - at_rest);
+  times_averaged_.push_back(0);
   return node;
 }
 
@@ -55,6 +57,12 @@ void DeformableMap::RemovePoint(int slot) {
 void DeformableMap::Detach(int slot) {
   std::vector<int>& owner = points_of_node_[skinning_[slot].nodes[0]];
   owner.erase(std::find(owner.begin(), owner.end(), slot));
+}
+
+void DeformableMap::AverageNode(int node, double memory) {
+  const double count = ++times_averaged_[node];
+  const Eigen::Vector3d now = NodeTranslation(state_.node(node));
+  mean_translations_[node] += (now - mean_translations_[node]) / std::min(count, memory);
 }
 
 Eigen::Vector3d DeformableMap::NodePosition(int node) const {

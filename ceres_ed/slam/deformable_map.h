@@ -78,6 +78,12 @@ class DeformableMap {
   void Rebind(int slot, const Binding& binding);
   void RemovePoint(int slot);
 
+  // t_j on average over the frames in which the node was observed: where it is thought to be while
+  // nobody looks. That of its birth before the first one.
+  const std::vector<Eigen::Vector3d>& mean_translations() const { return mean_translations_; }
+  // Takes the present t_j into the average, which forgets after `memory` >= 1 frames.
+  void AverageNode(int node, double memory);
+
   // Where node j is now, g_j + t_j.
   Eigen::Vector3d NodePosition(int node) const;
   LocalWarp WarpOf(const Binding& binding) const;
@@ -94,6 +100,8 @@ class DeformableMap {
   DeformationGraph graph_;
   DeformationState state_;
   Skinning skinning_;
+  std::vector<Eigen::Vector3d> mean_translations_;
+  std::vector<int> times_averaged_;
   std::vector<MapPoint> points_;
   std::vector<int> free_slots_;
   std::vector<std::vector<int>> points_of_node_;

@@ -48,6 +48,13 @@ struct WindowObservations {
   }
 };
 
+std::vector<Eigen::Vector3d> NodePrior(const DeformableMap& map, const LevelWindow& window) {
+  std::vector<Eigen::Vector3d> prior;
+  prior.reserve(window.nodes.size());
+  for (const int node : window.nodes) prior.push_back(map.mean_translations()[node]);
+  return prior;
+}
+
 }  // namespace
 
 StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
@@ -56,6 +63,7 @@ StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
   std::vector<EnergySpec> specs = {
       {"rotation", options.rotation_weight, {}, {}},
       {"regularization", options.regularization_weight, {}, {}},
+      {"node_prior", options.node_prior_weight, {}, {}},
       {"point_to_plane", options.plane_weight, {LossType::kTukey, 1.0}, {}},
       {"landmark", options.plane_weight * options.feature_weight, {LossType::kTukey, 1.0}, {}},
       {"pose_prior",
@@ -118,6 +126,8 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations, Deforma
   context.landmarks = &seen.features;
   context.has_camera = true;
   context.camera_prior = map->state().camera_from_map;
+  const std::vector<Eigen::Vector3d> node_prior = NodePrior(*map, window);
+  context.node_prior = &node_prior;
 
   // Data count per PR node, whatever the density of points.
   const double per_node =
@@ -166,6 +176,8 @@ LevelReport Levels::SolveLevelTwo(DeformableMap* map) {
   context.skinning = &no_skinning;
   context.correspondences = &none;
   context.landmarks = &none;
+  const std::vector<Eigen::Vector3d> node_prior = NodePrior(*map, window);
+  context.node_prior = &node_prior;
   ProblemBuilder builder(window.graph, /*has_camera=*/false);
   for (const Term& term : terms_) {
     if (term.observation || term.name == "pose_prior") continue;

@@ -44,8 +44,10 @@ struct FrameObservations {
 struct LevelsOptions {
   // Lengths are node spacings, and the data are counted per PR node, so that these mean the same
   // at any scale and density. All >= 0.
-  double rotation_weight = 1.0;
+  double rotation_weight = 0.1;
   double regularization_weight = 0.1;
+  // Of nodes to their average place: holds what nobody sees, and the camera against the tissue.
+  double node_prior_weight = 0.003;
   double plane_weight = 1.0;
   // Of one feature against one plane.
   double feature_weight = 4.0;

@@ -113,6 +113,23 @@ void DeformableSlam::Initialize(const SlamFrame& frame) {
   unit_ = options_.node_spacing > 0.0
               ? options_.node_spacing
               : std::sqrt(VisibleArea(surface) / (0.87 * options_.nodes_in_view));
+  if (frame.world_from_camera != nullptr) world_from_map_ = *frame.world_from_camera;
+}
+
+CameraPose DeformableSlam::Predict(const SlamFrame& frame) const {
+  const CameraPose& before = map_.state().camera_from_map;
+  switch (options_.camera) {
+    case CameraMode::kEstimate:
+      return Compose(camera_step_, before);
+    case CameraMode::kFixed:
+      return before;
+    case CameraMode::kGiven:
+      break;
+  }
+  if (frame.world_from_camera == nullptr) return before;
+  CameraPose pose = Compose(Inverse(*frame.world_from_camera), world_from_map_);
+  pose.translation /= unit_;
+  return pose;
 }
 
 bool DeformableSlam::FindCamera(const SlamFrame& frame,
@@ -120,7 +137,7 @@ bool DeformableSlam::FindCamera(const SlamFrame& frame,
                                 FrameReport* report) {
   Timer timer;
   const CameraPose before = map_.state().camera_from_map;
-  const CameraPose predicted = Compose(camera_step_, before);
+  const CameraPose predicted = Predict(frame);
   const bool color = options_.features && frame.color != nullptr && !frame.color->empty();
   std::vector<PointMatch> matches;
   if (color) {
@@ -132,6 +149,7 @@ bool DeformableSlam::FindCamera(const SlamFrame& frame,
   visible_ = FindVisible(map_, predicted, camera_, visibility);
   report->times.associate += timer.Restart();
   CameraTrackerOptions tracker;
+  if (options_.camera != CameraMode::kEstimate) tracker.max_iterations = 0;
   const CameraTrackerResult result = TrackCamera(visible_, matches, surface, predicted, tracker);
   report->times.camera += timer.Restart();
   map_.mutable_state().camera_from_map = result.camera_from_map;
@@ -189,6 +207,9 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* r
     report->times.level2 += timer.Restart();
     UpdateVisible(map_, map_.state().camera_from_map, camera_, &visible_);
     report->times.warp += timer.Restart();
+  }
+  for (int node = 0; node < map_.graph().num_nodes(); ++node) {
+    if (levels_->point_relevant()[node] != 0) map_.AverageNode(node, options_.node_memory);
   }
   features_.DropOutliers(map_, noise);
   const AssociationResult association =

@@ -51,6 +51,8 @@ struct SlamOptions {
   int max_observations = 6000;
   // Number of observations after which the running average of a point forgets, >= 1.
   double max_point_weight = 20.0;
+  // Frames over which a node's place is averaged, >= 1.
+  double node_memory = 100.0;
   int num_threads = 1;
   LevelsOptions levels;
   FeatureOptions feature;
@@ -146,6 +148,7 @@ class DeformableSlam {
   DeformableSlam(const PinholeCamera& camera, const SlamOptions& options);
 
   void Initialize(const SlamFrame& frame);
+  CameraPose Predict(const SlamFrame& frame) const;
   bool FindCamera(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
   void FollowTissue(const ObservedSurface& surface, FrameReport* report);
   void Fuse(const ObservedSurface& surface);
@@ -159,6 +162,8 @@ class DeformableSlam {
   FeaturePoints features_;
   double unit_ = 0.0;
   std::vector<VisiblePoint> visible_;
+  // Metres. The map's frame is that of the first camera.
+  CameraPose world_from_map_;
   // The last step of the camera, for the prediction of the next.
   CameraPose camera_step_;
 };

@@ -1,0 +1,60 @@
+#include "apps/eval_pair.h"
+
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/version.h>
+
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <apps/support/evaluation_report.h>
+#include <apps/support/report.h>
+
+namespace ceres_ed {
+namespace {
+
+Status Load(const std::string& path, PointCloud* cloud) {
+  if (path.empty()) return Status::Ok();
+  StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  if (loaded.ok()) *cloud = std::move(loaded->cloud);
+  return loaded.status();
+}
+
+}  // namespace
+
+Outcome EvaluatePair(const EvalSettings& settings) {
+  PointCloud result, target, source, truth_cloud;
+  for (const Status& status : {Load(settings.fitted, &result),
+                               Load(settings.target, &target),
+                               Load(settings.source, &source),
+                               Load(settings.truth, &truth_cloud)}) {
+    if (!status.ok()) return Outcome::BadInput(status);
+  }
+  const PointCloud* truth = settings.truth.empty() ? nullptr : &truth_cloud;
+  const StatusOr<Evaluation> evaluation =
+      Evaluate(result, target, settings.source.empty() ? nullptr : &source, truth);
+  if (!evaluation.ok()) return Outcome::BadInput(evaluation.status());
+
+  if (!settings.report.empty()) {
+    nlohmann::ordered_json report = {{"program", "ed_eval"}, {"version", kVersion}};
+    report["result"] = {{"path", settings.fitted}, {"points", result.size()}};
+    report["target"] = {{"path", settings.target}, {"points", target.size()}};
+    report.update(EvaluationReport(*evaluation));
+    report["flags"] = FlagsReport();
+    if (Status status = WriteReport(settings.report, report); !status.ok()) {
+      return Outcome::BadInput(status);
+    }
+  }
+  if (!settings.error_ply.empty()) {
+    const std::vector<double> errors =
+        truth != nullptr ? PointDistances(result, *truth) : SurfaceDistances(result.points, target);
+    if (Status status = WriteErrorCloud(settings.error_ply, result, errors); !status.ok()) {
+      return Outcome::BadInput(status);
+    }
+  }
+  std::fputs(EvaluationTable(*evaluation).c_str(), stdout);
+  return Outcome::Done();
+}
+
+}  // namespace ceres_ed

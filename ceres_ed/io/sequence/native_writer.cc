@@ -1,0 +1,182 @@
+#include "ceres_ed/io/sequence/native_writer.h"
+
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/io/image_io.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPictureFolders[] = {"color", "depth", "mask"};
+constexpr const char* kTruthMesh = "gt_mesh_000000.ply";
+constexpr const char* kTruthVertices = "gt_vertices.f32";
+constexpr const char* kFiles[] = {"camera.txt", "poses.txt", kTruthMesh, kTruthVertices};
+
+std::string PictureName(int frame) {
+  char name[32];
+  std::snprintf(name, sizeof(name), "%06d.png", frame);
+  return name;
+}
+
+// 000123.png, 7.jpg
+bool IsNumberedPicture(const fs::path& path) {
+  const std::string extension = path.extension().string();
+  if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") return false;
+  const std::string stem = path.stem().string();
+  return !stem.empty() && stem.find_first_not_of("0123456789") == std::string::npos;
+}
+
+// Every file in `directory` that belongs to a sequence.
+std::vector<fs::path> SequenceFiles(const fs::path& directory) {
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const char* name : kFiles) {
+    if (fs::exists(directory / name, ignored)) files.push_back(directory / name);
+  }
+  for (const char* folder : kPictureFolders) {
+    for (fs::directory_iterator it(directory / folder, ignored), end; it != end;
+         it.increment(ignored)) {
+      if (IsNumberedPicture(it->path())) files.push_back(it->path());
+    }
+  }
+  return files;
+}
+
+Status MakeFolder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (fs::is_directory(path)) return Status::Ok();
+  const std::string reason = error ? error.message() : "it is a file, expected a folder";
+  return Status::Error(path.string() + ": can't be made a folder: " + reason);
+}
+
+Status CheckFolder(const fs::path& directory, bool overwrite) {
+  std::error_code error;
+  if (fs::exists(directory, error) && !fs::is_directory(directory, error)) {
+    return Status::Error(directory.string() + ": is a file, expected a folder or a new name");
+  }
+  const std::vector<fs::path> old = SequenceFiles(directory);
+  if (!old.empty() && !overwrite) {
+    return Status::Error(directory.string() + ": holds a sequence already (" +
+                         old.front().lexically_relative(directory).string() +
+                         "), expected an empty folder or leave to overwrite it");
+  }
+  for (const fs::path& path : old) {
+    if (!fs::remove(path, error)) {
+      return Status::Error(path.string() + ": can't be removed: " + error.message());
+    }
+  }
+  return Status::Ok();
+}
+
+ColorImage MaskPicture(const MaskImage& mask) {
+  ColorImage picture(mask.width(), mask.height());
+  std::transform(
+      mask.pixels().begin(), mask.pixels().end(), picture.pixels().begin(), [](std::uint8_t value) {
+        const std::uint8_t grey = value != 0 ? 255 : 0;
+        return std::array<std::uint8_t, 3>{grey, grey, grey};
+      });
+  return picture;
+}
+
+}  // namespace
+
+bool HoldsNativeSequence(const std::string& directory) { return !SequenceFiles(directory).empty(); }
+
+NativeSequenceWriter::NativeSequenceWriter(std::string directory,
+                                           const NativeSequenceOptions& options)
+    : directory_(std::move(directory)), options_(options) {}
+
+StatusOr<std::unique_ptr<NativeSequenceWriter>> NativeSequenceWriter::Create(
+    const std::string& directory, const NativeSequenceOptions& options) {
+  const fs::path root(directory);
+  if (Status status = CheckFolder(root, options.overwrite); !status.ok()) return status;
+  if (Status status = MakeFolder(root / "depth"); !status.ok()) return status;
+  Status status = WriteCameraFile((root / "camera.txt").string(), options.camera);
+  if (!status.ok()) return status;
+  std::unique_ptr<NativeSequenceWriter> writer(new NativeSequenceWriter(directory, options));
+  return StatusOr<std::unique_ptr<NativeSequenceWriter>>(std::move(writer));
+}
+
+Status NativeSequenceWriter::WriteFrame(const NativeFrame& frame) {
+  CHECK(frame.depth != nullptr);
+  const auto check_size = [this](const auto& image) {
+    CHECK_EQ(image.width(), options_.camera.camera.width);
+    CHECK_EQ(image.height(), options_.camera.camera.height);
+  };
+  const fs::path root(directory_);
+  const std::string name = PictureName(num_frames());
+  const auto write_picture = [&](const char* folder, const ColorImage& picture) {
+    check_size(picture);
+    if (Status status = MakeFolder(root / folder); !status.ok()) return status;
+    return WriteColorImage((root / folder / name).string(), picture);
+  };
+  if (frame.color != nullptr && !frame.color->empty()) {
+    if (Status status = write_picture("color", *frame.color); !status.ok()) return status;
+  }
+  if (frame.mask != nullptr && !frame.mask->empty()) {
+    Status status = write_picture("mask", MaskPicture(*frame.mask));
+    if (!status.ok()) return status;
+  }
+  // Depth last: a frame without it is none.
+  check_size(*frame.depth);
+  Status status = WriteDepthImage(
+      (root / "depth" / name).string(), *frame.depth, options_.camera.depth_units_per_metre);
+  if (!status.ok()) return status;
+  if (frame.truth != nullptr) {
+    status = WriteTruth(*frame.truth);
+    if (!status.ok()) return status;
+  } else {
+    CHECK(truth_ == nullptr) << "frame " << num_frames() << " has no truth, those before it had";
+  }
+  poses_.push_back({num_frames(), frame.world_from_camera});
+  return Status::Ok();
+}
+
+Status NativeSequenceWriter::WriteTruth(const std::vector<Eigen::Vector3d>& points) {
+  if (truth_ == nullptr) {
+    CHECK_EQ(num_frames(), 0) << "frames before this one had no truth";
+    StatusOr<std::unique_ptr<AtomicFile>> file =
+        AtomicFile::Create((fs::path(directory_) / kTruthVertices).string());
+    if (!file.ok()) return file.status();
+    truth_ = *std::move(file);
+    first_truth_ = points;
+  }
+  CHECK_EQ(points.size(), first_truth_.size());
+  buffer_.clear();
+  for (const Eigen::Vector3d& point : points) {
+    for (int axis = 0; axis < 3; ++axis) buffer_.push_back(static_cast<float>(point[axis]));
+  }
+  truth_->stream().write(reinterpret_cast<const char*>(buffer_.data()),
+                         static_cast<std::streamsize>(buffer_.size() * sizeof(float)));
+  return truth_->stream().good()
+             ? Status::Ok()
+             : Status::Error(directory_ + "/" + kTruthVertices + ": can't be written, disk full?");
+}
+
+Status NativeSequenceWriter::Finish() {
+  const fs::path root(directory_);
+  if (truth_ != nullptr) {
+    PointCloud mesh;
+    mesh.points = std::move(first_truth_);
+    mesh.triangles = options_.truth_triangles;
+    CloudWriteOptions options;
+    options.comments = {"true surface at frame 0, metres, world frame"};
+    Status status = WriteCloud((root / kTruthMesh).string(), mesh, options);
+    if (!status.ok()) return status;
+    status = truth_->Commit();
+    if (!status.ok()) return status;
+  }
+  return WritePosesFile((root / "poses.txt").string(), poses_);
+}
+
+}  // namespace ceres_ed
