@@ -95,6 +95,13 @@ class Levels {
   // 1 for each PR node of the last Level I.
   const std::vector<char>& point_relevant() const { return point_relevant_; }
 
+  // Drops what the solvers keep from one frame for the next. It saves time, but the order in which
+  // they sum depends on it, and with that the last digits.
+  void ForgetSolvers();
+
+  // Saves what the last levels have moved, or loads it. Solvers are not part of it.
+  void Exchange(CheckpointArchive* archive);
+
  private:
   // A term and how it is weighed.
   struct Term {
