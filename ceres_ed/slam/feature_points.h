@@ -49,6 +49,9 @@ class FeaturePoints {
   // Finds new corners of the present picture and binds them to the map.
   void Replenish(const ObservedSurface& surface, const DeformableMap& map);
 
+  // Drops all corners: the camera has jumped.
+  void Clear() { features_.clear(); }
+
   int size() const { return static_cast<int>(features_.size()); }
 
   // Saves corners and picture, or loads them in the place of what is there.

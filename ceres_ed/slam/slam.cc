@@ -1,5 +1,6 @@
 #include "ceres_ed/slam/slam.h"
 
+#include <ceres_ed/slam/relocalization.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -15,6 +16,8 @@ constexpr double kInlierWidth = 3.0;
 // A frame is done when a round takes less than this share off the energy.
 constexpr int kLeastRounds = 2;
 constexpr double kSmallGain = 0.1;
+// A pose found from scratch replaces a tracked one whose score it beats by this factor.
+constexpr double kClearlyBetter = 1.2;
 
 CameraPose Compose(const CameraPose& a, const CameraPose& b) {
   CameraPose pose;
@@ -96,11 +99,11 @@ FrameReport DeformableSlam::Process(const SlamFrame& frame) {
   if (first) {
     report.status = FrameStatus::kInitialized;
   } else if (FindCamera(frame, surface, &report)) {
-    report.status = FrameStatus::kTracked;
     FollowTissue(surface, &report);
     Fuse(surface);
   } else {
-    report.status = FrameStatus::kLost;
+    report.nodes = map_.graph().num_nodes();
+    report.map_points = map_.num_points();
     return report;
   }
   Grow(frame, surface, &report);
@@ -148,18 +151,49 @@ bool DeformableSlam::FindCamera(const SlamFrame& frame,
     matches = features_.Matches(map_);
   }
   report->times.features += timer.Restart();
-  VisibilityOptions visibility;
+  const VisibilityOptions visibility;
   visible_ = FindVisible(map_, predicted, camera_, visibility);
   report->times.associate += timer.Restart();
-  CameraTrackerOptions tracker;
-  if (options_.camera != CameraMode::kEstimate) tracker.max_iterations = 0;
-  const CameraTrackerResult result = TrackCamera(visible_, matches, surface, predicted, tracker);
+  CameraPose found = predicted;
+  report->status = FrameStatus::kTracked;
+  if (options_.camera == CameraMode::kEstimate) {
+    found =
+        TrackCamera(visible_, matches, surface, predicted, CameraTrackerOptions()).camera_from_map;
+    visible_ = FindVisible(map_, found, camera_, visibility);
+    if (!Confirm(surface, before, &found, report)) {
+      report->status = FrameStatus::kLost;
+      camera_step_ = CameraPose();
+      visible_.clear();
+      report->times.camera += timer.Restart();
+      return false;
+    }
+  }
   report->times.camera += timer.Restart();
-  map_.mutable_state().camera_from_map = result.camera_from_map;
-  camera_step_ = Compose(result.camera_from_map, Inverse(before));
-  visible_ = FindVisible(map_, result.camera_from_map, camera_, visibility);
-  report->times.associate += timer.Restart();
+  const bool jumped = report->status == FrameStatus::kRelocalized;
+  camera_step_ = jumped ? CameraPose() : Compose(found, Inverse(before));
+  map_.mutable_state().camera_from_map = found;
   return true;
+}
+
+// A tracked pose that explains the frame badly is held against one that is looked for from scratch.
+// False when neither is to be believed.
+bool DeformableSlam::Confirm(const ObservedSurface& surface,
+                             const CameraPose& before,
+                             CameraPose* pose,
+                             FrameReport* report) {
+  PoseQualityOptions judge;
+  judge.point_spacing = options_.growth.point_spacing;
+  PoseQuality quality = JudgePose(visible_, *pose, surface, judge);
+  if (!judge.Doubts(quality)) return true;
+  const Relocalization other = Relocalize(map_, surface, before, VisibilityOptions(), judge);
+  if (other.quality.Score() > kClearlyBetter * quality.Score()) {
+    *pose = other.camera_from_map;
+    quality = other.quality;
+    report->status = FrameStatus::kRelocalized;
+    visible_ = FindVisible(map_, *pose, camera_, VisibilityOptions());
+    features_.Clear();
+  }
+  return judge.Believes(quality);
 }
 
 FrameObservations DeformableSlam::Observe(const AssociationResult& association) const {

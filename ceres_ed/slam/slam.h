@@ -150,6 +150,10 @@ class DeformableSlam {
   void Initialize(const SlamFrame& frame);
   CameraPose Predict(const SlamFrame& frame) const;
   bool FindCamera(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
+  bool Confirm(const ObservedSurface& surface,
+               const CameraPose& before,
+               CameraPose* pose,
+               FrameReport* report);
   void FollowTissue(const ObservedSurface& surface, FrameReport* report);
   void Fuse(const ObservedSurface& surface);
   void Grow(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
