@@ -24,8 +24,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from bench_tables import cell, check_marks, table, write_between
-from pair_runs import (PROGRAM, ROOT, RunFailed, Variant, bench_pair, default_folders, find_pairs,
-                       wrong_call)
+from pair_runs import bench_pair, find_pairs
+from program_runs import PROGRAM, ROOT, RunFailed, Variant, default_folders, wrong_call
 
 BEGIN, END = "<!-- ablate_pairs.py: begin -->", "<!-- ablate_pairs.py: end -->"
 NOTHING = ""

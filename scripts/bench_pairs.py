@@ -33,8 +33,8 @@ import tempfile
 from pathlib import Path
 
 from bench_tables import COLUMNS, print_table, ratio_row, write_readme
-from pair_runs import (ROOT, RunFailed, Variant, bench_pair, default_folders, find_pairs,
-                       subdivided, wrong_call)
+from pair_runs import bench_pair, find_pairs, subdivided
+from program_runs import ROOT, RunFailed, Variant, default_folders
 
 
 def parse_options():

@@ -1,9 +1,10 @@
-"""The tables of bench_pairs.py: on the terminal and in README.md; and how pages are filled."""
+"""Tables on the terminal and in pages, those of bench_pairs.py among them."""
 import csv
 import sys
 from pathlib import Path
 
-ROOT = Path(__file__).resolve().parent.parent
+from program_runs import PROGRAM, ROOT
+
 PUBLISHED = ROOT / "data" / "published.csv"
 BEGIN, END = "<!-- bench_pairs.py: begin -->", "<!-- bench_pairs.py: end -->"
 
@@ -25,22 +26,24 @@ def cell(value, decimals):
     return str(value) if decimals is None else f"{value:.{decimals}f}"
 
 
-def ratio_row(a, b):
-    row = {key: None for key, _, _ in COLUMNS}
-    row.update(pair=a["pair"], variant="B/A")
-    for key in RATIOS:
+def ratio_row(a, b, columns=COLUMNS, ratios=RATIOS):
+    """Returns the row of B/A, with the name that stands in the first of `columns`."""
+    name = columns[0][0]
+    row = {key: None for key, _, _ in columns}
+    row.update({name: a[name], "variant": "B/A"})
+    for key in ratios:
         row[key] = b[key] / a[key] if a[key] and b[key] is not None else None
     return row
 
 
-def print_table(rows, compared):
-    columns = ([("variant", "", None)] if compared else []) + COLUMNS
+def print_table(rows, compared, columns=COLUMNS, ratios=RATIOS):
+    columns = ([("variant", "", None)] if compared else []) + columns
     lines = [[heading for _, heading, _ in columns]]
     for row in rows:
         decimals = 2 if row["variant"] == "B/A" else None
-        lines.append([cell(row[key], decimals if decimals and key in RATIOS else default)
+        lines.append([cell(row[key], decimals if decimals and key in ratios else default)
                       for key, _, default in columns])
-    if compared:  # the pair's name stands first
+    if compared:  # the name stands first
         lines = [[line[1], line[0]] + line[2:] for line in lines]
     text_columns = 2 if compared else 1
     widths = [max(len(line[i]) for line in lines) for i in range(len(columns))]
@@ -100,7 +103,7 @@ def check_marks(path, begin, end):
     """Ends the program where the file at `path` doesn't have both marks once; returns its text."""
     page = Path(path).read_text()
     if page.count(begin) != 1 or page.count(end) != 1:
-        sys.exit(f"{Path(sys.argv[0]).name}: {path} lacks the marks {begin} and {end}")
+        sys.exit(f"{PROGRAM}: {path} lacks the marks {begin} and {end}")
     return page
 
 

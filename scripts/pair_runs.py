@@ -1,37 +1,12 @@
 """Pairs of surfaces, programs that fit them, and what comes of it: for bench and ablation."""
 import filecmp
 import json
-import multiprocessing
-import os
-import shlex
 import statistics
-import subprocess
 import sys
-import time
-from pathlib import Path
 
-PROGRAM = Path(sys.argv[0]).name
-ROOT = Path(__file__).resolve().parent.parent
+from program_runs import PROGRAM, apart, run, wrong_call
+
 MEDIANS = ("time_s", "wall_s", "cpu_s", "memory_mb")
-
-
-class RunFailed(Exception):
-    pass
-
-
-def wrong_call(message):
-    print(f"{PROGRAM}: {message}", file=sys.stderr)
-    sys.exit(2)
-
-
-def apart(function, *arguments):
-    """Returns what `function` returns, from a process of its own.
-
-    A program's peak memory, as the kernel counts it, is at least that of the process that starts
-    it: large arrays in this one would show in every figure that follows.
-    """
-    with multiprocessing.get_context("fork").Pool(1) as pool:
-        return pool.apply(function, arguments)
 
 
 class Pair:
@@ -58,22 +33,6 @@ class Pair:
                             "truth_flipped": truth["flipped"]}
         return self._before or dict.fromkeys(("nothing", "rigid", "truth_edge_p99",
                                               "truth_flipped"))
-
-
-class Variant:
-    """A program that is called as ed_fit is (--output, --report, --quiet), and its flags."""
-
-    def __init__(self, name, program, flags):
-        self.name = name
-        self.program = Path(program)
-        self.flags = flags
-        if not os.access(self.program, os.X_OK):
-            wrong_call(f"{self.program} is not there; build it or name its folder")
-
-
-def default_folders():
-    extra = os.environ.get("CERES_ED_DATA")
-    return [ROOT / "data"] + ([Path(extra)] if extra else [])
 
 
 def find_pairs(folders, names, target="target.ply"):
@@ -120,21 +79,6 @@ def subdivided(pair, work):
     return Pair(folder, "target.ply")
 
 
-def run(command, log):
-    """Runs a program; returns its wall seconds, CPU seconds and peak megabytes."""
-    with open(log, "wb") as stderr:
-        start = time.monotonic()
-        child = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL,
-                                 stderr=stderr)
-        _, status, usage = os.wait4(child.pid, 0)
-        wall = time.monotonic() - start
-    child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
-        last = Path(log).read_text(errors="replace").strip().splitlines()[-1:] or ["no message"]
-        raise RunFailed(f"{shlex.join(map(str, command))}\n  exit code {child.returncode}: {last[0]}")
-    return wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0
-
-
 def evaluate(ed_eval, result, pair, work):
     report = work / "eval.json"
     command = [ed_eval, result, pair.target, f"--source={pair.source}", f"--report={report}"]
@@ -163,7 +107,7 @@ def rigid_error(pair, diagonal):
 
 
 def fit_once(variant, pair, work):
-    """Runs the program; returns its row of times and counts."""
+    """Runs the program, called as ed_fit is; returns its row of times and counts."""
     report = work / "fit.json"
     command = [variant.program, pair.source, pair.target, f"--output={work / 'fitted.ply'}",
                f"--report={report}", "--quiet"] + variant.flags

@@ -1,0 +1,219 @@
+#!/usr/bin/env python3
+"""Runs ed_slam on every depth sequence and tabulates how well and how fast.
+
+Sequences are looked for in the folder that the environment variable CERES_ED_DATA names (a folder
+with camera.txt and depth/, or with depth.txt); heart, kidney, stomach, strip and plane are made by
+ed_simulate, once, into --cache. With --compare-flags or --compare-bin a second variant B runs in
+turn with the first (A B A B ...), so that both meet the same machine. One run at a time.
+
+  frames   all, and of these: reloc (camera found again), lost, skipped (nothing to see)
+  surface  distance of seen map points to the true surface: median of a frame, median of the frames
+  seen     tracking error: where a map point is against where its tissue point is; mean, in view
+  hidden   the same of points out of view or behind others
+  camera   rms error of the camera's place (camera and tissue may trade motion)
+  px       median error of the given 2D tracks; tracks: followed / given
+  plane    rms distance of inliers to the planes of the depth image, median of the frames
+  static   what a pair of frames leaves where nothing moves, of --static-residual: see below
+  depth    |z - depth| at the pixel, median of a frame, mean of the frames: has all sensor noise
+  ms, p95  time of a frame, t_total of frames.csv: all but reading, decoding and writing
+  cpu      CPU time of the whole program a frame: what is left when the machine is busy elsewhere
+  observe ... grow   medians of the stages, ms
+  MB       the most memory that ed_slam had at a time
+  nodes, points   of the map in the end; pr: nodes with data, active: moved by Level I (medians)
+Lengths are millimetres. Times are medians over --runs; errors are those of the first run.
+
+--static-residual: the map of frame k alone is laid on frame k + 1 rigidly, by ed_slam with rotation
+and regularization so strong that nothing bends. The median over the quietest fourth of all
+neighbours is what the sensor's noise and the calibration leave (sequence_runs.py says more).
+
+Exits with 1 when a run fails or two runs of one variant differ, with 2 on a wrong call.
+
+  scripts/bench_sequences.py
+  scripts/bench_sequences.py --sequences=heart,kidney,stomach --compare-flags="--mode=batch"
+  scripts/bench_sequences.py --sequences=invivo_heart_40 --runs=3 --json=build/sequences.json
+  scripts/bench_sequences.py --compare-bin=../before/build/release/apps
+"""
+import argparse
+import json
+import shlex
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+
+from bench_tables import cell, check_marks, print_table, ratio_row, table, write_between
+from program_runs import PROGRAM, ROOT, RunFailed, Variant, default_folders, wrong_call
+from sequence_runs import (CACHE, SCENES, STAGES, counts_of, digest, errors_of, evaluate,
+                           find_sequences, read_frames, simulate, static_residual, times_of, track)
+
+BEGIN, END = "<!-- bench_sequences.py: begin -->", "<!-- bench_sequences.py: end -->"
+TIMES = ("ms", "ms_p95", *(f"ms_{stage}" for stage in STAGES), "cpu", "wall_s", "memory_mb")
+
+# Field, heading, decimals.
+COLUMNS = [
+    ("sequence", "sequence", None), ("frames", "frames", 0), ("relocalized", "reloc", 0),
+    ("lost", "lost", 0), ("skipped", "skipped", 0), ("surface_seen", "surface", 3),
+    ("tracking_seen", "seen", 3), ("tracking_hidden", "hidden", 3), ("camera", "camera", 2),
+    ("track_px", "px", 2), ("tracks", "tracks", None), ("rms_plane", "plane", 3),
+    ("static", "static", 3), ("depth", "depth", 3), ("ms", "ms", 1), ("ms_p95", "p95", 1),
+    ("cpu", "cpu", 1), *((f"ms_{stage}", stage, 1) for stage in STAGES), ("memory_mb", "MB", 0),
+    ("nodes", "nodes", 0), ("pr", "pr", 0), ("active", "active", 0), ("points", "points", 0),
+]
+RATIOS = ("surface_seen", "tracking_seen", "tracking_hidden", "camera", "track_px", "rms_plane",
+          "depth", *TIMES)
+# The columns of README.md.
+SHOWN = [("frames", "frames", 0), ("lost", "lost", 0), ("surface_seen", "surface mm", 2),
+         ("tracking_seen", "seen mm", 2), ("tracking_hidden", "hidden mm", 2),
+         ("track_px", "tracks px", 1), ("rms_plane", "plane mm", 2), ("ms", "ms", 0),
+         ("ms_p95", "p95 ms", 0), ("memory_mb", "MB", 0), ("nodes", "nodes", 0),
+         ("points", "points", 0)]
+
+
+def parse_options():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/apps", metavar="DIR",
+                        help="folder of ed_slam, ed_simulate and ed_eval [build/release/apps]")
+    parser.add_argument("--flags", default="", help="flags of ed_slam, of both variants [none]")
+    parser.add_argument("--runs", type=int, default=1, help="runs of each variant [1]")
+    parser.add_argument("--sequences", default="", help="names, with commas between [all]")
+    parser.add_argument("--data", action="append", type=Path, metavar="DIR",
+                        help="folder of sequences, repeatable [data/ and $CERES_ED_DATA]")
+    parser.add_argument("--cache", type=Path, default=CACHE, metavar="DIR",
+                        help="where simulated sequences are kept [build/sequences]")
+    parser.add_argument("--simulate-flags", default="", metavar="FLAGS",
+                        help="flags of ed_simulate, such as --frames=30 [none]")
+    parser.add_argument("--fresh", action="store_true", help="simulate again what --cache holds")
+    parser.add_argument("--static-residual", default="invivo_heart_40", metavar="NAMES",
+                        help="sequences whose static residual is measured [invivo_heart_40]")
+    parser.add_argument("--compare-flags", metavar="FLAGS", help="variant B has these flags, too")
+    parser.add_argument("--compare-bin", metavar="DIR", help="variant B is the ed_slam of this folder")
+    parser.add_argument("--json", metavar="FILE", help="also write rows and options there")
+    parser.add_argument("--readme", metavar="FILE",
+                        help="also put the table between the marks of this README.md")
+    options = parser.parse_args()
+    if options.runs < 1:
+        parser.error(f"--runs={options.runs}, expected 1 or more")
+    if options.data is None:
+        options.data = default_folders()
+    options.compared = options.compare_flags is not None or options.compare_bin is not None
+    if options.compared and options.readme:
+        parser.error("--readme takes one variant alone")
+    if options.readme:
+        check_marks(options.readme, BEGIN, END)
+    return options
+
+
+def list_sequences(options):
+    """Returns functions that return a sequence each: simulated ones may have to be made first."""
+    names = [name for name in options.sequences.split(",") if name]
+    made = {}
+    for scene in SCENES:
+        def make(scene=scene):
+            return simulate(options.bin / "ed_simulate", scene,
+                            shlex.split(options.simulate_flags), options.cache, options.fresh)
+        made[scene] = make
+    found = {sequence.name: (lambda sequence=sequence: sequence)
+             for sequence in find_sequences(options.data)}
+    known = {**found, **made}
+    unknown = set(names) - set(known)
+    if unknown:
+        wrong_call(f"no sequence {', '.join(sorted(unknown))}; there are {', '.join(known)}")
+    return {name: known[name] for name in names or known}
+
+
+def run_once(variant, sequence, output):
+    wall, cpu, memory = track(variant, sequence, output)
+    frames = read_frames(output)
+    return {"wall_s": wall, "cpu": 1e3 * cpu / max(1, len(frames)), "memory_mb": memory,
+            **counts_of(frames), **times_of(frames)}
+
+
+def bench_sequence(variants, sequence, options, work):
+    """Runs the variants in turn; returns a row each and whether all runs of each agreed."""
+    runs, digests, agreed = {}, {}, True
+    for number in range(options.runs):
+        for variant in variants:
+            output = work / f"{variant.name}_{number > 0}"
+            runs.setdefault(variant.name, []).append(run_once(variant, sequence, output))
+            if digests.setdefault(variant.name, digest(output)) != digest(output):
+                print(f"{PROGRAM}: {sequence.name}: two runs of {variant.name} differ",
+                      file=sys.stderr)
+                agreed = False
+    rows = []
+    for variant in variants:
+        of_variant = runs[variant.name]
+        row = dict.fromkeys(key for key, _, _ in COLUMNS)
+        row.update(of_variant[0], sequence=sequence.name, variant=variant.name)
+        for key in TIMES:
+            values = [one[key] for one in of_variant if key in one]
+            row[key] = statistics.median(values) if values else None
+        row.update(errors_of(evaluate(options.bin / "ed_eval", sequence,
+                                      work / f"{variant.name}_False")))
+        if sequence.name in options.static_residual.split(","):
+            row["static"] = static_residual(variant, sequence, work)
+        rows.append(row)
+    return rows, agreed
+
+
+def markdown(rows):
+    lines = table(["sequence", *(heading for _, heading, _ in SHOWN)],
+                  [[f"`{row['sequence']}`", *(cell(row[key], decimals)
+                                              for key, _, decimals in SHOWN)] for row in rows])
+    for row in rows:
+        if row["static"]:
+            lines += ["", static_note(row)]
+    return "\n".join(lines)
+
+
+def static_note(row):
+    return (f"`{row['sequence']}`: a pair of frames where nothing moves leaves "
+            f"{row['static']:.3f} mm to the planes; the sequence {row['rms_plane']:.3f} mm, "
+            f"{row['rms_plane'] / row['static']:.2f} times that.")
+
+
+def save(options, rows):
+    if options.json:
+        said = {key: getattr(options, key) for key in ("flags", "runs", "simulate_flags",
+                                                       "compare_flags")}
+        Path(options.json).write_text(json.dumps({"options": said, "rows": rows}, indent=2) + "\n")
+    if options.readme:
+        write_between(options.readme, BEGIN, END, markdown(rows))
+
+
+def main():
+    options = parse_options()
+    variants = [Variant("A", options.bin / "ed_slam", shlex.split(options.flags))]
+    if options.compared:
+        flags = shlex.split(f"{options.flags} {options.compare_flags or ''}")
+        folder = Path(options.compare_bin or options.bin)
+        variants.append(Variant("B", folder / "ed_slam", flags))
+
+    rows, failed = [], False
+    with tempfile.TemporaryDirectory(prefix="bench_sequences_") as work:
+        sequences = list_sequences(options)
+        for number, (name, make) in enumerate(sequences.items(), 1):
+            print(f"[{number}/{len(sequences)}] {name}", file=sys.stderr)
+            try:
+                of_sequence, agreed = bench_sequence(variants, make(), options, Path(work))
+            except RunFailed as error:
+                print(f"{PROGRAM}: {name}: {error}", file=sys.stderr)
+                failed = True
+                continue
+            failed = failed or not agreed
+            rows += of_sequence
+            if options.compared:
+                rows.append(ratio_row(*of_sequence, COLUMNS, RATIOS))
+    print_table(rows, options.compared, COLUMNS, RATIOS)
+    for row in rows:
+        if row["static"]:
+            print(static_note(row).replace("`", ""))
+    if failed and options.readme:
+        print(f"{PROGRAM}: a run failed, {options.readme} stays as it is", file=sys.stderr)
+        options.readme = None
+    save(options, rows)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
