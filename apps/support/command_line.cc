@@ -3,6 +3,7 @@
 #include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/version.h>
 
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -159,6 +160,14 @@ std::string Wrap(const std::string& text, int indent, int width) {
   return result;
 }
 
+std::string ShortValue(const gflags::CommandLineFlagInfo& flag, const std::string& value) {
+  if (flag.type != "double") return value;
+  constexpr int kLongestDouble = 64;
+  char text[kLongestDouble];
+  const double number = std::strtod(value.c_str(), nullptr);
+  return std::string(text, std::to_chars(text, text + kLongestDouble, number).ptr);
+}
+
 std::string ArgumentCountText(const ProgramInfo& info) {
   if (info.min_arguments == info.max_arguments) return std::to_string(info.min_arguments);
   return std::to_string(info.min_arguments) + " to " + std::to_string(info.max_arguments);
@@ -187,7 +196,8 @@ std::string HelpText(const ProgramInfo& info) {
   const int indent = static_cast<int>(name_width) + kTypeWidth + 6;
   for (const auto& flag : flags) {
     const std::string type = TypeName(flag);
-    const std::string fallback = flag.default_value.empty() ? "" : " [" + flag.default_value + "]";
+    const std::string fallback =
+        flag.default_value.empty() ? "" : " [" + ShortValue(flag, flag.default_value) + "]";
     text += "  --" + flag.name + std::string(name_width - flag.name.size() + 1, ' ') + type +
             std::string(kTypeWidth - type.size() + 1, ' ') +
             Wrap(flag.description + fallback, indent, kHelpColumns - indent) + "\n";
@@ -200,6 +210,11 @@ std::string VersionText() {
   return std::string("ceres_ed ") + kVersion + "\nCeres " + backend.ceres_version +
          "\nsparse library " + backend.sparse_library + "\nBLAS " + backend.blas + "\nthreads " +
          std::to_string(std::thread::hardware_concurrency()) + "\n";
+}
+
+std::string CurrentValue(const std::string& name) {
+  const gflags::CommandLineFlagInfo flag = gflags::GetCommandLineFlagInfoOrDie(name.c_str());
+  return ShortValue(flag, flag.current_value);
 }
 
 std::vector<gflags::CommandLineFlagInfo> OwnFlags() {

@@ -32,6 +32,10 @@ std::string HelpText(const ProgramInfo& info);
 // each.
 std::string VersionText();
 
+// Returns a flag's value as text, a number in as few digits as read back as the same: gflags' own
+// text of 0.1 is 0.10000000000000001. `name` is that of a flag that is there.
+std::string CurrentValue(const std::string& name);
+
 // Returns the program's own flags, those defined under apps/, by name.
 std::vector<gflags::CommandLineFlagInfo> OwnFlags();
 

@@ -3,6 +3,7 @@
 #include <ceres_ed/io/ply_writer.h>
 #include <ceres_ed/io/vertex_columns.h>
 
+#include <array>
 #include <cstddef>
 #include <utility>
 
@@ -12,6 +13,20 @@
 
 namespace ceres_ed {
 namespace {
+
+constexpr std::array<double, 3> kRelevantColor = {240, 140, 20};
+constexpr std::array<double, 3> kIrrelevantColor = {40, 90, 200};
+
+void AppendColors(const std::vector<double>& relevant, PlyElement* nodes) {
+  constexpr std::array<const char*, 3> kNames = {"red", "green", "blue"};
+  for (std::size_t channel = 0; channel < kNames.size(); ++channel) {
+    PlyProperty column = MakePlyScalar(kNames[channel], PlyType::kUint8);
+    for (const double pr : relevant) {
+      column.values.push_back(pr != 0.0 ? kRelevantColor[channel] : kIrrelevantColor[channel]);
+    }
+    nodes->properties.push_back(std::move(column));
+  }
+}
 
 PlyElement MakeNodeElement(const DeformationGraph& graph,
                            const DeformationState& state,
@@ -31,7 +46,9 @@ PlyElement MakeNodeElement(const DeformationGraph& graph,
   nodes.name = "vertex";
   nodes.count = num_nodes;
   AppendVectorColumns(positions, {"x", "y", "z"}, PlyType::kFloat32, &nodes);
+  const std::vector<double> relevant = pr.values;
   nodes.properties.push_back(std::move(pr));
+  if (options.with_colors) AppendColors(relevant, &nodes);
   AppendVectorColumns(graph.positions(), {"rest_x", "rest_y", "rest_z"}, PlyType::kFloat32, &nodes);
   return nodes;
 }

@@ -19,6 +19,8 @@ struct GraphWriteOptions {
   Similarity output_from_graph;
   // Empty (all 0), or for each node whether it is PR.
   std::vector<bool> is_point_relevant;
+  // Adds uchar red green blue: orange for a PR node, blue for a PI node.
+  bool with_colors = false;
 };
 
 // Returns ok when `path` holds the graph: element 'vertex' with float x y z (deformed position),

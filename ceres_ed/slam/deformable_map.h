@@ -14,6 +14,8 @@
 
 namespace ceres_ed {
 
+class CheckpointArchive;
+
 // What the map knows of one point. Lengths are in map units.
 struct MapPoint {
   // Where it is while all nodes are at rest.
@@ -86,8 +88,13 @@ class DeformableMap {
   Eigen::Vector3d NodePosition(int node) const;
   LocalWarp WarpOf(const Binding& binding) const;
 
+  // Saves everything, or loads it in the place of what is there.
+  void Exchange(CheckpointArchive* archive);
+
  private:
   void Detach(int slot);
+  void ExchangeGraph(CheckpointArchive* archive);
+  void ExchangePoints(CheckpointArchive* archive);
 
   int neighbors_;
   DeformationGraph graph_;

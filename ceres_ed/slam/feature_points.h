@@ -51,6 +51,9 @@ class FeaturePoints {
 
   int size() const { return static_cast<int>(features_.size()); }
 
+  // Saves corners and picture, or loads them in the place of what is there.
+  void Exchange(CheckpointArchive* archive);
+
  private:
   struct Feature {
     Eigen::Vector2d pixel;
@@ -59,7 +62,7 @@ class FeaturePoints {
     Eigen::Vector3d at_rest;
     int nodes[kMaxBoundNodes];
     double weights[kMaxBoundNodes];
-    int num_nodes;
+    int num_nodes = 0;
     int age = 0;
 
     Binding binding() const { return {nodes, weights, num_nodes}; }

@@ -153,6 +153,7 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations, Deforma
   if (!solved) return report;
   report.variable_nodes = window.num_variable;
   report.iterations = summary.TotalIterations();
+  report.initial_energy = summary.levels.back().initial_cost;
   report.energy = summary.levels.back().final_cost;
   WriteBack(window, &map->mutable_state());
   map->mutable_state().camera_from_map = window.state.camera_from_map;
@@ -194,6 +195,7 @@ LevelReport Levels::SolveLevelTwo(DeformableMap* map) {
   if (!solved) return report;
   report.variable_nodes = window.num_variable;
   report.iterations = summary.TotalIterations();
+  report.initial_energy = summary.levels.back().initial_cost;
   report.energy = summary.levels.back().final_cost;
   WriteBack(window, &map->mutable_state());
   return report;

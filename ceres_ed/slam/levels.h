@@ -70,7 +70,8 @@ struct LevelReport {
   int variable_nodes = 0;
   int point_relevant = 0;
   int iterations = 0;
-  // The energy of the level's problem at the end.
+  // The energy of the level's problem before and after.
+  double initial_energy = 0.0;
   double energy = 0.0;
 };
 
@@ -81,7 +82,9 @@ class Levels {
   static StatusOr<std::unique_ptr<Levels>> Create(const LevelsOptions& options,
                                                   const EnergyRegistry& registry);
 
-  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved.
+  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved. One
+  // step of the solver, for the observations change with it; more only where that one brings
+  // nothing.
   LevelReport SolveLevelOne(const FrameObservations& observations, DeformableMap* map);
 
   // Level II (Eq. 15): moves the nodes that Level I has held.
@@ -91,6 +94,13 @@ class Levels {
   const std::vector<char>& moved_nodes() const { return moved_; }
   // 1 for each PR node of the last Level I.
   const std::vector<char>& point_relevant() const { return point_relevant_; }
+
+  // Drops what the solvers keep from one frame for the next. It saves time, but the order in which
+  // they sum depends on it, and with that the last digits.
+  void ForgetSolvers();
+
+  // Saves what the last levels have moved, or loads it. Solvers are not part of it.
+  void Exchange(CheckpointArchive* archive);
 
  private:
   // A term and how it is weighed.

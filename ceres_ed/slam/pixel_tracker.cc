@@ -1,6 +1,9 @@
 #include "ceres_ed/slam/pixel_tracker.h"
 
+#include <ceres_ed/slam/checkpoint.h>
+
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
 #include <glog/logging.h>
@@ -49,6 +52,13 @@ struct PixelTracker::Impl {
   Pyramid before;
   Pyramid now;
 
+  // Makes the pyramid of `gray`.
+  void BuildPyramid() {
+    now.clear();
+    cv::buildOpticalFlowPyramid(
+        gray, now, cv::Size(options.window, options.window), options.pyramid_levels);
+  }
+
   void Flow(const Pyramid& from,
             const Pyramid& to,
             const std::vector<cv::Point2f>& start,
@@ -85,11 +95,7 @@ void PixelTracker::SetImage(const ColorImage& image) {
                     const_cast<void*>(static_cast<const void*>(image.pixels().data())));
   impl_->gray = Flatten(rgb, impl_->options.light_radius);
   impl_->before = std::move(impl_->now);
-  impl_->now.clear();
-  cv::buildOpticalFlowPyramid(impl_->gray,
-                              impl_->now,
-                              cv::Size(impl_->options.window, impl_->options.window),
-                              impl_->options.pyramid_levels);
+  impl_->BuildPyramid();
 }
 
 std::vector<TrackedPixel> PixelTracker::Track(const std::vector<Eigen::Vector2d>& pixels,
@@ -136,6 +142,19 @@ std::vector<Eigen::Vector2d> PixelTracker::Detect(const MaskImage& allowed,
       impl_->gray, found, count, impl_->options.quality, impl_->options.min_distance, mask);
   for (const cv::Point2f& p : found) corners.emplace_back(p.x, p.y);
   return corners;
+}
+
+void PixelTracker::Exchange(CheckpointArchive* archive) {
+  cv::Mat& gray = impl_->gray;
+  int height = gray.rows;
+  archive->Value("height", &height);
+  std::vector<std::uint8_t> pixels;
+  if (!gray.empty()) pixels.assign(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>());
+  archive->Array("pixels", &pixels);
+  // All else is made of these: the picture before is not looked at again.
+  if (archive->saving() || height <= 0 || pixels.empty()) return;
+  gray = cv::Mat(pixels, /*copyData=*/true).reshape(1, height);
+  impl_->BuildPyramid();
 }
 
 }  // namespace ceres_ed

@@ -11,6 +11,8 @@
 
 namespace ceres_ed {
 
+class CheckpointArchive;
+
 struct PixelTrackerOptions {
   // Side of the window that is matched, pixels, odd, >= 3.
   int window = 17;
@@ -50,6 +52,9 @@ class PixelTracker {
   std::vector<Eigen::Vector2d> Detect(const MaskImage& allowed,
                                       const std::vector<Eigen::Vector2d>& taken,
                                       int count) const;
+
+  // Saves the present picture, or loads it in the place of what is there.
+  void Exchange(CheckpointArchive* archive);
 
  private:
   struct Impl;

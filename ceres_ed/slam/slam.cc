@@ -12,6 +12,9 @@ namespace ceres_ed {
 namespace {
 
 constexpr double kInlierWidth = 3.0;
+// A frame is done when a round takes less than this share off the energy.
+constexpr int kLeastRounds = 2;
+constexpr double kSmallGain = 0.1;
 
 CameraPose Compose(const CameraPose& a, const CameraPose& b) {
   CameraPose pose;
@@ -200,6 +203,8 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* r
     report->times.level1 += timer.Restart();
     UpdateVisible(map_, map_.state().camera_from_map, camera_, &visible_);
     report->times.warp += timer.Restart();
+    const double gain = level.initial_energy - level.energy;
+    if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
   if (options_.mode != SolveMode::kBatch) {
     const LevelReport level = levels_->SolveLevelTwo(&map_);

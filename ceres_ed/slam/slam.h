@@ -45,8 +45,8 @@ struct SlamOptions {
   int neighbors = 4;
   // Follow corners of the colour image, where there is one.
   bool features = true;
-  // Times that a frame is associated and Level I solved, >= 1.
-  int rounds = 2;
+  // Times at most that a frame is associated and Level I takes a step, >= 1.
+  int rounds = 4;
   // Observations that Level I takes, evenly chosen among more, >= 100.
   int max_observations = 6000;
   // Number of observations after which the running average of a point forgets, >= 1.
@@ -136,6 +136,13 @@ class DeformableSlam {
   double unit() const { return unit_; }
   // The camera after the last frame, in map units.
   const CameraPose& camera_from_map() const { return map_.state().camera_from_map; }
+  // 1 for each node that the last tracked frame had data on; nodes that it added are not in it.
+  const std::vector<char>& point_relevant() const { return levels_->point_relevant(); }
+
+  // Saves all that the next frames depend on, or loads it in the place of what is there; of a run
+  // with the same camera and options. Either way what the solvers keep is dropped, so that the run
+  // that was saved and the one that is loaded go on alike, to the last bit.
+  void Exchange(CheckpointArchive* archive);
 
  private:
   DeformableSlam(const PinholeCamera& camera, const SlamOptions& options);

@@ -55,6 +55,24 @@ TEST(WriteGraph, HoldsDeformedNodesRestPositionsAndEdges) {
   EXPECT_EQ(edges.Find("alpha")->type, PlyType::kFloat32);
 }
 
+TEST(WriteGraph, ColorsPrAndPiNodesApartWhereAsked) {
+  const TemporaryDirectory directory;
+  DeformationGraph graph;
+  for (int j = 0; j < 3; ++j) graph.AddNode(Eigen::Vector3d(j, 0, 0));
+  GraphWriteOptions options;
+  options.is_point_relevant = {true, false, true};
+  options.with_colors = true;
+  ASSERT_TRUE(WriteGraph(directory / "graph.ply", graph, DeformationState(3), options).ok());
+  const StatusOr<LoadedCloud> loaded = LoadCloud(directory / "graph.ply");
+  ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+  const PlyElement& nodes = *loaded->document.Find("vertex");
+  EXPECT_THAT(nodes.Find("pr")->values, ElementsAre(1, 0, 1));
+  EXPECT_THAT(nodes.Find("red")->values, ElementsAre(240, 40, 240));
+  EXPECT_THAT(nodes.Find("green")->values, ElementsAre(140, 90, 140));
+  EXPECT_THAT(nodes.Find("blue")->values, ElementsAre(20, 200, 20));
+  EXPECT_EQ(nodes.Find("red")->type, PlyType::kUint8);
+}
+
 TEST(WriteGraph, MissingDirectoryIsAnError) {
   const TemporaryDirectory directory;
   DeformationGraph graph;

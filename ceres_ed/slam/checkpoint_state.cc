@@ -1,0 +1,182 @@
+// What each class of the frame loop saves of itself.
+#include <ceres_ed/slam/checkpoint.h>
+#include <ceres_ed/slam/deformable_map.h>
+#include <ceres_ed/slam/feature_points.h>
+#include <ceres_ed/slam/levels.h>
+#include <ceres_ed/slam/slam.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+void ExchangePose(const std::string& name, CameraPose* pose, CheckpointArchive* archive) {
+  archive->Value(name + "_rotation", &pose->rotation);
+  archive->Value(name + "_translation", &pose->translation);
+}
+
+// Rows of a list whose length is not known when it is loaded.
+template <typename Row>
+void ExchangeCount(const std::string& name,
+                   std::vector<Row>* rows,
+                   CheckpointArchive* archive,
+                   const Row& fresh = Row()) {
+  int count = static_cast<int>(rows->size());
+  archive->Value(name, &count);
+  if (!archive->saving()) rows->assign(static_cast<std::size_t>(std::max(0, count)), fresh);
+}
+
+void ExchangeFlags(const std::string& name, std::vector<char>* flags, CheckpointArchive* archive) {
+  std::vector<std::uint8_t> bytes(flags->begin(), flags->end());
+  archive->Array(name, &bytes);
+  flags->assign(bytes.begin(), bytes.end());
+}
+
+// The nodes of one point, with nothing uninitialised behind them.
+struct BindingRow {
+  std::array<int, kMaxBoundNodes> nodes = {};
+  std::array<double, kMaxBoundNodes> weights = {};
+  int size = 0;
+};
+
+}  // namespace
+
+void DeformableMap::Exchange(CheckpointArchive* archive) {
+  archive->Enter("map");
+  ExchangeGraph(archive);
+  ExchangePoints(archive);
+  archive->Leave();
+}
+
+void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
+  std::vector<Eigen::Vector3d> positions = graph_.positions();
+  ExchangeCount<Eigen::Vector3d>("nodes", &positions, archive, Eigen::Vector3d::Zero());
+  archive->Column(
+      "node_positions", &positions, [](auto& p) -> auto& { return p; });
+  std::vector<GraphEdge> edges = graph_.edges();
+  ExchangeCount("edges", &edges, archive);
+  archive->Column("edge_from", &edges, [](GraphEdge& e) -> int& { return e.from; });
+  archive->Column("edge_to", &edges, [](GraphEdge& e) -> int& { return e.to; });
+  archive->Column("edge_weight", &edges, [](GraphEdge& e) -> double& { return e.weight; });
+  std::vector<double> parameters;
+  for (int j = 0; j < state_.num_nodes(); ++j) {
+    parameters.insert(parameters.end(), state_.node(j), state_.node(j) + kNodeSize);
+  }
+  archive->Array("node_parameters", &parameters);
+  if (!archive->saving()) mean_translations_.assign(positions.size(), Eigen::Vector3d::Zero());
+  archive->Column(
+      "mean_translations", &mean_translations_, [](auto& t) -> auto& { return t; });
+  archive->Array("times_averaged", &times_averaged_);
+  ExchangePose("camera_from_map", &state_.camera_from_map, archive);
+  if (archive->saving() || !archive->status().ok()) return;
+  graph_ = DeformationGraph();
+  for (const Eigen::Vector3d& position : positions) graph_.AddNode(position);
+  for (const GraphEdge& edge : edges) graph_.AddEdge(edge);
+  state_.Resize(graph_.num_nodes());
+  for (int j = 0; j < graph_.num_nodes(); ++j) {
+    std::copy_n(&parameters[static_cast<std::size_t>(j) * kNodeSize], kNodeSize, state_.node(j));
+  }
+}
+
+void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
+  using Point = MapPoint;
+  ExchangeCount("slots", &points_, archive);
+  archive->Column(
+      "position", &points_, [](Point & p) -> auto& { return p.position; });
+  archive->Column(
+      "normal", &points_, [](Point & p) -> auto& { return p.normal; });
+  archive->Column("weight", &points_, [](Point& p) -> double& { return p.weight; });
+  archive->Column(
+      "color", &points_, [](Point & p) -> auto& { return p.color; });
+  archive->Column("id", &points_, [](Point& p) -> int& { return p.id; });
+  archive->Column("birth_frame", &points_, [](Point& p) -> int& { return p.birth_frame; });
+  archive->Column(
+      "birth_position", &points_, [](Point & p) -> auto& { return p.birth_position; });
+  archive->Column("contradictions", &points_, [](Point& p) -> int& { return p.contradictions; });
+
+  std::vector<BindingRow> bindings(points_.size());
+  for (std::size_t slot = 0; archive->saving() && slot < bindings.size(); ++slot) {
+    const Binding binding = skinning_[slot];
+    std::copy_n(binding.nodes, binding.size, bindings[slot].nodes.begin());
+    std::copy_n(binding.weights, binding.size, bindings[slot].weights.begin());
+    bindings[slot].size = binding.size;
+  }
+  archive->Column(
+      "bound_nodes", &bindings, [](BindingRow & b) -> auto& { return b.nodes; });
+  archive->Column(
+      "bound_weights", &bindings, [](BindingRow & b) -> auto& { return b.weights; });
+  archive->Column("bound_sizes", &bindings, [](BindingRow& b) -> int& { return b.size; });
+
+  // Points are visited node by node: the order of each node's list is part of the result.
+  std::vector<int> owned, owned_counts;
+  for (const std::vector<int>& slots : points_of_node_) {
+    owned.insert(owned.end(), slots.begin(), slots.end());
+    owned_counts.push_back(static_cast<int>(slots.size()));
+  }
+  archive->Array("owned", &owned);
+  archive->Array("owned_counts", &owned_counts);
+  archive->Array("free_slots", &free_slots_);
+  archive->Value("num_points", &num_points_);
+  archive->Value("next_id", &next_id_);
+  if (archive->saving() || !archive->status().ok()) return;
+  skinning_ = Skinning(neighbors_);
+  for (const BindingRow& b : bindings) skinning_.Add(b.nodes.data(), b.weights.data(), b.size);
+  points_of_node_.clear();
+  auto next = owned.begin();
+  for (const int count : owned_counts) {
+    points_of_node_.emplace_back(next, next + count);
+    next += count;
+  }
+}
+
+void FeaturePoints::Exchange(CheckpointArchive* archive) {
+  archive->Enter("features");
+  tracker_.Exchange(archive);
+  ExchangeCount("count", &features_, archive);
+  for (Feature& f : features_) {
+    // Nobody looks behind the last node.
+    std::fill(f.nodes + f.num_nodes, f.nodes + kMaxBoundNodes, 0);
+    std::fill(f.weights + f.num_nodes, f.weights + kMaxBoundNodes, 0.0);
+  }
+  archive->Column(
+      "pixel", &features_, [](Feature & f) -> auto& { return f.pixel; });
+  archive->Column(
+      "in_camera", &features_, [](Feature & f) -> auto& { return f.in_camera; });
+  archive->Column(
+      "at_rest", &features_, [](Feature & f) -> auto& { return f.at_rest; });
+  archive->Column(
+      "nodes", &features_, [](Feature & f) -> auto& { return f.nodes; });
+  archive->Column(
+      "weights", &features_, [](Feature & f) -> auto& { return f.weights; });
+  archive->Column("num_nodes", &features_, [](Feature& f) -> int& { return f.num_nodes; });
+  archive->Column("age", &features_, [](Feature& f) -> int& { return f.age; });
+  archive->Leave();
+}
+
+void Levels::ForgetSolvers() {
+  level_one_ = MakeLevelSolver(options_.linear_solver);
+  level_two_ = MakeLevelSolver(options_.linear_solver);
+}
+
+void Levels::Exchange(CheckpointArchive* archive) {
+  archive->Enter("levels");
+  ExchangeFlags("point_relevant", &point_relevant_, archive);
+  ExchangeFlags("moved", &moved_, archive);
+  archive->Leave();
+}
+
+void DeformableSlam::Exchange(CheckpointArchive* archive) {
+  archive->Enter("slam");
+  archive->Value("unit", &unit_);
+  ExchangePose("world_from_map", &world_from_map_, archive);
+  ExchangePose("camera_step", &camera_step_, archive);
+  map_.Exchange(archive);
+  features_.Exchange(archive);
+  levels_->Exchange(archive);
+  archive->Leave();
+  levels_->ForgetSolvers();
+}
+
+}  // namespace ceres_ed

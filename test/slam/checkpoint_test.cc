@@ -1,0 +1,186 @@
+#include "ceres_ed/slam/checkpoint.h"
+
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/slam/slam.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <test/slam/bumpy_sequence.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::HasSubstr;
+
+struct Row {
+  double number = 0.0;
+  Eigen::Vector3d place = Eigen::Vector3d::Zero();
+  std::array<std::uint8_t, 3> color = {};
+  int pair[2] = {};
+};
+
+struct Everything {
+  int whole = 0;
+  double number = 0.0;
+  Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
+  std::string text;
+  std::vector<Row> rows;
+
+  void Exchange(CheckpointArchive* archive) {
+    archive->Value("whole", &whole);
+    archive->Enter("group");
+    archive->Value("number", &number);
+    archive->Value("turn", &turn);
+    archive->Text("text", &text);
+    archive->Leave();
+    archive->Column("number", &rows, [](Row& row) -> double& { return row.number; });
+    archive->Column(
+        "place", &rows, [](Row & row) -> auto& { return row.place; });
+    archive->Column(
+        "color", &rows, [](Row & row) -> auto& { return row.color; });
+    archive->Column(
+        "pair", &rows, [](Row & row) -> auto& { return row.pair; });
+  }
+};
+
+Everything Example() {
+  Everything e;
+  e.whole = -7;
+  e.number = 0.1;
+  e.turn = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5);
+  e.text = "a path of no UTF-8: \xff\n";
+  e.rows.resize(2);
+  e.rows[1].number = 1.0 / 3.0;
+  e.rows[1].place = {1.0, 2.0, 3.0};
+  e.rows[1].color = {0, 128, 255};
+  e.rows[1].pair[1] = 9;
+  return e;
+}
+
+std::string Save(Everything e) {
+  CheckpointWriter writer;
+  e.Exchange(&writer);
+  return writer.Finish();
+}
+
+std::string OpenError(const std::string& bytes) {
+  return CheckpointReader::Open(bytes).status().message();
+}
+
+TEST(Checkpoint, LoadsWhatWasSaved) {
+  const auto reader = CheckpointReader::Open(Save(Example()));
+  ASSERT_TRUE(reader.ok()) << reader.status().message();
+  Everything e;
+  e.rows.resize(2);
+  e.Exchange(reader->get());
+  ASSERT_TRUE((*reader)->status().ok()) << (*reader)->status().message();
+  const Everything expected = Example();
+  EXPECT_EQ(e.whole, expected.whole);
+  EXPECT_EQ(e.number, expected.number);
+  EXPECT_EQ(e.turn.coeffs(), expected.turn.coeffs());
+  EXPECT_EQ(e.text, expected.text);
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(e.rows[i].number, expected.rows[i].number);
+    EXPECT_EQ(e.rows[i].place, expected.rows[i].place);
+    EXPECT_EQ(e.rows[i].color, expected.rows[i].color);
+    EXPECT_EQ(e.rows[i].pair[1], expected.rows[i].pair[1]);
+  }
+}
+
+TEST(Checkpoint, SaysWhatIsMissingOrOfAnotherSize) {
+  const auto reader = CheckpointReader::Open(Save(Example()));
+  ASSERT_TRUE(reader.ok());
+  double number = 5.0;
+  (*reader)->Value("whole", &number);
+  EXPECT_EQ(number, 5.0);
+  EXPECT_FALSE((*reader)->status().ok());
+
+  const auto other = CheckpointReader::Open(Save(Example()));
+  std::vector<Row> rows(3);
+  (*other)->Column(
+      "place", &rows, [](Row & row) -> auto& { return row.place; });
+  EXPECT_THAT((*other)->status().message(), HasSubstr("place has 6 numbers, expected 9"));
+  // The first error counts, and names in a group that isn't there are no crash.
+  (*other)->Enter("nowhere");
+  (*other)->Value("whole", &number);
+  (*other)->Leave();
+  EXPECT_THAT((*other)->status().message(), HasSubstr("place"));
+}
+
+TEST(Checkpoint, RefusesEveryFlippedByteAndEveryCut) {
+  const std::string good = Save(Example());
+  ASSERT_TRUE(CheckpointReader::Open(good).ok());
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    std::string bad = good;
+    bad[i] = static_cast<char>(bad[i] ^ 0x11);
+    EXPECT_FALSE(CheckpointReader::Open(bad).ok()) << "byte " << i;
+    EXPECT_FALSE(CheckpointReader::Open(good.substr(0, i)).ok()) << "cut at " << i;
+  }
+  EXPECT_THAT(OpenError("{}"), HasSubstr("is no checkpoint"));
+}
+
+// Tracks frames [first, last) of a sheet that heaves.
+std::vector<FrameReport> Track(int first, int last, DeformableSlam* slam) {
+  BumpyScene scene;
+  scene.heave = 0.001;
+  std::vector<FrameReport> reports;
+  for (int i = first; i < last; ++i) {
+    const DepthImage depth = scene.RenderDepth(i);
+    const ColorImage color = scene.RenderColor(i);
+    SlamFrame frame;
+    frame.number = i;
+    frame.depth = &depth;
+    frame.color = &color;
+    reports.push_back(slam->Process(frame));
+  }
+  return reports;
+}
+
+std::unique_ptr<DeformableSlam> MakeSlam() {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  SlamOptions options;
+  options.nodes_in_view = 40;
+  auto slam = DeformableSlam::Create(BumpyCamera(), options, registry);
+  EXPECT_TRUE(slam.ok());
+  return *std::move(slam);
+}
+
+std::string SaveSlam(DeformableSlam* slam) {
+  CheckpointWriter writer;
+  slam->Exchange(&writer);
+  return writer.Finish();
+}
+
+TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {
+  const std::unique_ptr<DeformableSlam> saved = MakeSlam();
+  Track(0, 4, saved.get());
+  const std::string bytes = SaveSlam(saved.get());
+
+  const std::unique_ptr<DeformableSlam> loaded = MakeSlam();
+  // Whatever it held is gone.
+  Track(2, 3, loaded.get());
+  const auto reader = CheckpointReader::Open(bytes);
+  ASSERT_TRUE(reader.ok());
+  loaded->Exchange(reader->get());
+  ASSERT_TRUE((*reader)->status().ok()) << (*reader)->status().message();
+  EXPECT_EQ(SaveSlam(loaded.get()), bytes);
+
+  const std::vector<FrameReport> one = Track(4, 8, saved.get());
+  const std::vector<FrameReport> other = Track(4, 8, loaded.get());
+  EXPECT_EQ(one.back().status, FrameStatus::kTracked);
+  EXPECT_GT(one.back().features, 0);
+  EXPECT_EQ(one.back().energy, other.back().energy);
+  EXPECT_EQ(one.back().features, other.back().features);
+  EXPECT_TRUE(SaveSlam(saved.get()) == SaveSlam(loaded.get()));
+}
+
+}  // namespace
+}  // namespace ceres_ed
