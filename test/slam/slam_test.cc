@@ -119,7 +119,7 @@ TEST(DeformableSlam, DoesNotDependOnTheUnitOfLength) {
 
 TEST(DeformableSlam, NeverMovesAFixedCamera) {
   const ShortSequence sequence(SyntheticSceneKind::kPlane, 10);
-  SlamOptions options = FastOptions();
+  SlamOptions options;
   options.camera = CameraMode::kFixed;
   const SlamRun run(sequence, options);
   for (const CameraPose& pose : run.cameras) {
