@@ -65,10 +65,8 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
     parameters.insert(parameters.end(), state_.node(j), state_.node(j) + kNodeSize);
   }
   archive->Array("node_parameters", &parameters);
-  if (!archive->saving()) mean_translations_.assign(positions.size(), Eigen::Vector3d::Zero());
-  archive->Column(
-      "mean_translations", &mean_translations_, [](auto& t) -> auto& { return t; });
-  archive->Array("times_averaged", &times_averaged_);
+  if (!archive->saving()) node_prior_.assign(positions.size(), Eigen::Vector3d::Zero());
+  archive->Column("node_prior", &node_prior_, [](auto& t) -> auto& { return t; });
   ExchangePose("camera_from_map", &state_.camera_from_map, archive);
   if (archive->saving() || !archive->status().ok()) return;
   graph_ = DeformationGraph();

@@ -16,8 +16,7 @@ int DeformableMap::AddNode(const Eigen::Vector3d& at_rest,
   MutableNodeAffine(state_.node(node)) = affine;
   MutableNodeTranslation(state_.node(node)) = now - at_rest;
   points_of_node_.emplace_back();
-  mean_translations_.push_back(now - at_rest);
-  times_averaged_.push_back(0);
+  node_prior_.push_back(now - at_rest);
   return node;
 }
 
@@ -59,10 +58,9 @@ void DeformableMap::Detach(int slot) {
   owner.erase(std::find(owner.begin(), owner.end(), slot));
 }
 
-void DeformableMap::AverageNode(int node, double memory) {
-  const double count = ++times_averaged_[node];
-  const Eigen::Vector3d now = NodeTranslation(state_.node(node));
-  mean_translations_[node] += (now - mean_translations_[node]) / std::min(count, memory);
+void DeformableMap::SetNodePrior(std::vector<Eigen::Vector3d> translations) {
+  CHECK_EQ(static_cast<int>(translations.size()), graph_.num_nodes());
+  node_prior_ = std::move(translations);
 }
 
 Eigen::Vector3d DeformableMap::NodePosition(int node) const {

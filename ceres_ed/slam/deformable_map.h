@@ -78,11 +78,10 @@ class DeformableMap {
   void Rebind(int slot, const Binding& binding);
   void RemovePoint(int slot);
 
-  // t_j on average over the frames in which the node was observed: where it is thought to be while
-  // nobody looks. That of its birth before the first one.
-  const std::vector<Eigen::Vector3d>& mean_translations() const { return mean_translations_; }
-  // Takes the present t_j into the average, which forgets after `memory` >= 1 frames.
-  void AverageNode(int node, double memory);
+  // t_j where each node is thought to be; that of its birth for a new one.
+  const std::vector<Eigen::Vector3d>& node_prior() const { return node_prior_; }
+  // One entry a node.
+  void SetNodePrior(std::vector<Eigen::Vector3d> translations);
 
   // Where node j is now, g_j + t_j.
   Eigen::Vector3d NodePosition(int node) const;
@@ -100,8 +99,7 @@ class DeformableMap {
   DeformationGraph graph_;
   DeformationState state_;
   Skinning skinning_;
-  std::vector<Eigen::Vector3d> mean_translations_;
-  std::vector<int> times_averaged_;
+  std::vector<Eigen::Vector3d> node_prior_;
   std::vector<MapPoint> points_;
   std::vector<int> free_slots_;
   std::vector<std::vector<int>> points_of_node_;

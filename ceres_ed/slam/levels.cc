@@ -51,7 +51,7 @@ struct WindowObservations {
 std::vector<Eigen::Vector3d> NodePrior(const DeformableMap& map, const LevelWindow& window) {
   std::vector<Eigen::Vector3d> prior;
   prior.reserve(window.nodes.size());
-  for (const int node : window.nodes) prior.push_back(map.mean_translations()[node]);
+  for (const int node : window.nodes) prior.push_back(map.node_prior()[node]);
   return prior;
 }
 

@@ -57,9 +57,13 @@ class ObservedSurface {
   const SurfacePatch& patch(int i, int j) const { return patches_(i, j); }
   // The patch nearest to a pixel; null where there is none or the pixel is outside.
   const SurfacePatch* Find(const Eigen::Vector2d& pixel) const {
-    const int i = static_cast<int>(std::floor(pixel.x() + 0.5)) / cell_;
-    const int j = static_cast<int>(std::floor(pixel.y() + 0.5)) / cell_;
-    if (!(pixel.x() >= -0.5 && pixel.y() >= -0.5) || !patches_.Contains(i, j)) return nullptr;
+    // Before the cast, which has no meaning for numbers that no int holds.
+    if (!(pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera_.width - 0.5 &&
+          pixel.y() < camera_.height - 0.5)) {
+      return nullptr;
+    }
+    const int i = static_cast<int>(pixel.x() + 0.5) / cell_;
+    const int j = static_cast<int>(pixel.y() + 0.5) / cell_;
     const SurfacePatch& patch = patches_(i, j);
     return patch.valid() ? &patch : nullptr;
   }

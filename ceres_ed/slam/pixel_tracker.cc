@@ -108,7 +108,10 @@ std::vector<TrackedPixel> PixelTracker::Track(const std::vector<Eigen::Vector2d>
   std::vector<cv::Point2f> back;
   std::vector<unsigned char> found, found_back;
   impl_->Flow(impl_->before, impl_->now, start, &end, &found);
-  back = end;
+  // The way back is guessed by the same prediction, so that both ways have equally far to search.
+  back.reserve(end.size());
+  const std::vector<cv::Point2f> guess = ToCv(predicted);
+  for (std::size_t i = 0; i < end.size(); ++i) back.push_back(end[i] - (guess[i] - start[i]));
   impl_->Flow(impl_->now, impl_->before, end, &back, &found_back);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const double round_trip = std::hypot(back[i].x - start[i].x, back[i].y - start[i].y);

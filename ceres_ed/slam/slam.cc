@@ -66,7 +66,8 @@ std::string FrameStatusName(FrameStatus status) {
 }
 
 DeformableSlam::DeformableSlam(const PinholeCamera& camera, const SlamOptions& options)
-    : camera_(camera), options_(options), map_(options.neighbors), features_(options.feature) {}
+    : camera_(camera), options_(options), map_(options.neighbors), features_(options.feature),
+      memory_(options.memory) {}
 
 StatusOr<std::unique_ptr<DeformableSlam>> DeformableSlam::Create(const PinholeCamera& camera,
                                                                  const SlamOptions& options,
@@ -217,6 +218,7 @@ FrameObservations DeformableSlam::Observe(const AssociationResult& association) 
 void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* report) {
   Timer timer;
   const double noise = std::max(surface.noise(), 1e-4);
+  map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
   for (int round = 0; round < options_.rounds; ++round) {
     const CameraPose& pose = map_.state().camera_from_map;
     const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
@@ -241,15 +243,14 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* r
     if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
   if (options_.mode != SolveMode::kBatch) {
+    map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
     const LevelReport level = levels_->SolveLevelTwo(&map_);
     report->updated_pi = level.variable_nodes;
     report->times.level2 += timer.Restart();
     UpdateVisible(map_, map_.state().camera_from_map, camera_, &visible_);
     report->times.warp += timer.Restart();
   }
-  for (int node = 0; node < map_.graph().num_nodes(); ++node) {
-    if (levels_->point_relevant()[node] != 0) map_.AverageNode(node, options_.node_memory);
-  }
+  memory_.Keep(map_, levels_->point_relevant());
   features_.DropOutliers(map_, noise);
   const AssociationResult association =
       Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());

@@ -11,6 +11,7 @@
 #include <ceres_ed/slam/levels.h>
 #include <ceres_ed/slam/map_growth.h>
 #include <ceres_ed/slam/observed_surface.h>
+#include <ceres_ed/slam/tissue_memory.h>
 #include <ceres_ed/slam/visibility.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/util/status.h>
@@ -51,8 +52,7 @@ struct SlamOptions {
   int max_observations = 6000;
   // Number of observations after which the running average of a point forgets, >= 1.
   double max_point_weight = 20.0;
-  // Frames over which a node's place is averaged, >= 1.
-  double node_memory = 100.0;
+  TissueMemoryOptions memory;
   int num_threads = 1;
   LevelsOptions levels;
   FeatureOptions feature;
@@ -164,6 +164,7 @@ class DeformableSlam {
   std::unique_ptr<Levels> levels_;
   DeformableMap map_;
   FeaturePoints features_;
+  TissueMemory memory_;
   double unit_ = 0.0;
   std::vector<VisiblePoint> visible_;
   // Metres. The map's frame is that of the first camera.

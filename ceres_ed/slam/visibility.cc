@@ -80,8 +80,13 @@ std::vector<VisiblePoint> FindVisible(const DeformableMap& map,
   const double min_cosine = std::cos(options.max_view_angle_deg * M_PI / 180.0);
   const auto hidden = [&](const VisiblePoint& point) {
     const Eigen::Vector3d normal = camera_from_map.rotation * point.normal_in_map;
-    const bool faces = -normal.dot(point.in_camera) >= min_cosine * point.in_camera.norm();
-    return !faces || point.in_camera.z() > cell_of(point.pixel) + options.depth_tolerance;
+    const double facing = -normal.dot(point.in_camera);
+    if (!(facing >= min_cosine * point.in_camera.norm())) return true;
+    // What the point's own tangent plane rises across a cell: a steep surface doesn't hide itself.
+    const double z = point.in_camera.z();
+    const double rise = cell * z * z / facing *
+                        (std::abs(normal.x()) / camera.fx + std::abs(normal.y()) / camera.fy);
+    return z > cell_of(point.pixel) + options.depth_tolerance + rise;
   };
   candidates.erase(std::remove_if(candidates.begin(), candidates.end(), hidden), candidates.end());
   return candidates;

@@ -58,6 +58,7 @@ EnergyContext TestProblem::Context() const {
   context.landmarks = &landmarks;
   context.has_camera = has_camera;
   context.camera_prior = camera_prior;
+  context.node_prior = &node_prior;
   return context;
 }
 
@@ -75,6 +76,7 @@ TestProblem MakeTestProblem(const TestProblemOptions& options) {
   TestProblem problem;
   problem.has_camera = options.has_camera;
   AddNodes(options, &problem.graph);
+  problem.node_prior.assign(problem.graph.num_nodes(), Eigen::Vector3d::Zero());
   SyntheticRandom random(options.seed);
   const int observed =
       options.observed_columns < 0 ? options.columns - 1 : options.observed_columns;

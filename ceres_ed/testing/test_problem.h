@@ -40,6 +40,8 @@ struct TestProblem {
   bool has_camera = false;
   // Identity.
   CameraPose camera_prior;
+  // Zero, one a node: at rest.
+  std::vector<Eigen::Vector3d> node_prior;
 
   // Looks at this object, which must outlive it.
   EnergyContext Context() const;

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <cost_functions/node_parameters.h>
+#include <cost_functions/node_prior_cost.h>
 #include <cost_functions/regularization_cost.h>
 #include <cost_functions/rotation_cost.h>
 #include <gmock/gmock.h>
@@ -87,6 +88,24 @@ TEST(RotationCost, VanishesForEveryRotation) {
     EXPECT_LT(EvaluateResiduals(*cost, {MakeNode(R, Eigen::Vector3d::Zero())}).residuals.norm(),
               1e-14);
   }
+}
+
+TEST(NodePriorCost, ObeysTheLaws) {
+  const Eigen::Vector3d prior(0.4, -1.5, 2.0);
+  const std::unique_ptr<ceres::CostFunction> cost(NodePriorCost::Create(prior));
+  CostClaims claims;
+  claims.rest = {MakeNode(Eigen::Matrix3d::Identity(), prior)};
+  claims.invariances.push_back({"a change of A", [](ParameterBlocks* blocks) {
+                                  MutableNodeAffine((*blocks)[0].data()) *= -3.0;
+                                }});
+  EXPECT_THAT(CheckCostLaws(*cost, claims), IsEmpty());
+}
+
+TEST(NodePriorCost, IsTheWayFromThePriorToTheTranslation) {
+  const std::unique_ptr<ceres::CostFunction> cost(NodePriorCost::Create({1.0, 2.0, -3.0}));
+  const CostEvaluation evaluation =
+      EvaluateResiduals(*cost, {MakeNode(Eigen::Matrix3d::Zero(), {1.5, 0.0, -2.0})});
+  EXPECT_EQ(evaluation.residuals, Eigen::Vector3d(0.5, -2.0, 1.0));
 }
 
 TEST(RegularizationCost, ObeysTheLaws) {

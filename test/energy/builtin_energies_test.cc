@@ -88,6 +88,19 @@ TEST(RegularizationEnergy, ObeysTheLaws) {
   EXPECT_THAT(Check("regularization", claims), IsEmpty());
 }
 
+// Nothing is said of A_j.
+EnergyInvariance ChangeOfAllAffineParts() {
+  return {"a change of every A_j", [](const DeformationGraph& graph, DeformationState* state) {
+            for (int j = 0; j < graph.num_nodes(); ++j) MutableNodeAffine(state->node(j)) *= -3.0;
+          }};
+}
+
+TEST(NodePriorEnergy, ObeysTheLaws) {
+  EnergyClaims claims;
+  claims.invariances = {ChangeOfAllAffineParts()};
+  EXPECT_THAT(Check("node_prior", claims), IsEmpty());
+}
+
 TEST(PosePriorEnergy, ObeysTheLaws) {
   EnergyClaims claims;
   claims.parameters = {{"rotation_sigma", 30.0}, {"translation_sigma", 0.5}};
@@ -126,6 +139,30 @@ TEST(RegularizationEnergy, HasOneResidualBlockAnEdgeWithItsWeight) {
              Eigen::Vector3d(1.5, 3.0, 4.5))
                 .norm(),
             1e-14);
+}
+
+TEST(NodePriorEnergy, PullsEachNodeTowardItsOwnPlace) {
+  TestProblem problem = MakeTestProblem({});
+  for (int j = 0; j < 18; ++j) problem.node_prior[j] = {0.1 * j, -1.0, 2.0};
+  const auto residuals = CollectResiduals(*Create("node_prior"), problem.Context());
+  ASSERT_EQ(residuals.size(), 18u);
+  const DeformationState state = RandomState(problem, 0.4, 5);
+  for (int j = 0; j < 18; ++j) {
+    ASSERT_EQ(residuals[j].blocks.size(), 1u);
+    EXPECT_EQ(residuals[j].blocks[0].node, j);
+    EXPECT_EQ(residuals[j].weight, 1.0);
+    const Eigen::Vector3d expected =
+        NodeTranslation(state.node(j)) - Eigen::Vector3d(0.1 * j, -1.0, 2.0);
+    EXPECT_EQ(EvaluateResiduals(*residuals[j].cost, BlocksAt(residuals[j], state)).residuals,
+              expected);
+  }
+}
+
+TEST(NodePriorEnergy, IsSilentWhereNothingIsKnown) {
+  const TestProblem problem = MakeTestProblem({});
+  EnergyContext context = problem.Context();
+  context.node_prior = nullptr;
+  EXPECT_TRUE(CollectResiduals(*Create("node_prior"), context).empty());
 }
 
 TEST(PosePriorEnergy, DividesByTheSpreads) {

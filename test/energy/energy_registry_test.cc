@@ -164,6 +164,7 @@ TEST(EnergyRegistry, ListsEnergiesInTheOrderOfTheirNames) {
   for (const EnergyInfo* info : registry.List()) names.push_back(info->name);
   EXPECT_THAT(names,
               ElementsAre("landmark",
+                          "node_prior",
                           "point_to_plane",
                           "point_to_point",
                           "pose_prior",

@@ -1,0 +1,165 @@
+#include "ceres_ed/slam/feature_points.h"
+
+#include <ceres_ed/graph/warp.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <test/slam/depth_scenes.h>
+#include <test/slam/picture_scenes.h>
+
+namespace ceres_ed {
+namespace {
+
+// One pixel is 0.05 at z = 6.
+constexpr double kDepth = 6.0;
+constexpr double kPixel = kDepth / 120.0;
+
+ObservedSurface Sheet() {
+  return {RenderDepth(SmallCamera(), TiltedPlane(kDepth, 0.0, 0.0)),
+          SmallCamera(),
+          1.0,
+          ObservedSurfaceOptions()};
+}
+
+FeatureOptions DenseFeatures() {
+  FeatureOptions options;
+  options.count = 100;
+  options.pixels.min_distance = 6.0;
+  return options;
+}
+
+// Median distance of the matches from a slide of the sheet, all of it.
+double MedianError(const FeaturePoints& features,
+                   const DeformableMap& map,
+                   const Eigen::Vector3d& slide) {
+  std::vector<double> errors;
+  for (const PointMatch& m : features.Matches(map)) {
+    errors.push_back((map.state().camera_from_map * m.in_map + slide - m.in_camera).norm());
+  }
+  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+  return errors[errors.size() / 2];
+}
+
+// A textured sheet that slides along itself, which its depth doesn't show.
+class FeaturePointsTest : public ::testing::Test {
+ protected:
+  FeaturePointsTest() : surface_(Sheet()), features_(DenseFeatures()) {
+    map_.mutable_state().camera_from_map = Motion(0.4, {1.0, 1.0, 3.0}, {0.5, -1.0, 2.0});
+    GrowMap({}, surface_, ColorImage(), 0, MapGrowthOptions(), &map_);
+    features_.Track(
+        TexturedPicture({0, 0}, EvenLight), surface_, map_, map_.state().camera_from_map);
+    features_.Replenish(surface_, map_);
+    born_ = features_.size();
+  }
+
+  void Show(const Eigen::Vector2d& shift) {
+    features_.Track(
+        TexturedPicture(shift, EvenLight), surface_, map_, map_.state().camera_from_map);
+  }
+
+  ObservedSurface surface_;
+  DeformableMap map_;
+  FeaturePoints features_;
+  int born_ = 0;
+};
+
+TEST_F(FeaturePointsTest, SitOnTheMapWhereTheyWereBorn) {
+  EXPECT_GT(born_, 60);
+  EXPECT_LE(born_, 100);
+  for (const PointMatch& m : features_.Matches(map_)) {
+    EXPECT_LT((map_.state().camera_from_map * m.in_map - m.in_camera).norm(), 1e-12);
+    EXPECT_NEAR(m.in_camera.z(), kDepth, 4.0 * kFloatRounding * kDepth);
+  }
+}
+
+TEST_F(FeaturePointsTest, FollowASheetThatSlidesAlongItself) {
+  for (int frame = 1; frame <= 4; ++frame) {
+    const Eigen::Vector2d shift = frame * Eigen::Vector2d(1.7, -0.9);
+    Show(shift);
+    EXPECT_GT(features_.size(), 0.8 * born_);
+    // A tenth of a pixel for each step.
+    EXPECT_LT(MedianError(features_, map_, kPixel * Eigen::Vector3d(shift.x(), shift.y(), 0.0)),
+              0.1 * frame * kPixel);
+  }
+}
+
+TEST_F(FeaturePointsTest, AreObservationsOfTheSamePlaces) {
+  Show({2.0, 1.0});
+  const std::vector<PointMatch> matches = features_.Matches(map_);
+  const std::vector<MapObservation> observations = features_.Observations();
+  ASSERT_EQ(matches.size(), observations.size());
+  ASSERT_EQ(static_cast<int>(matches.size()), features_.size());
+  for (std::size_t k = 0; k < matches.size(); ++k) {
+    const MapObservation& o = observations[k];
+    EXPECT_EQ(o.target, matches[k].in_camera);
+    EXPECT_EQ(WarpPoint(map_.graph(), map_.state(), o.binding, o.position), matches[k].in_map);
+  }
+}
+
+TEST_F(FeaturePointsTest, StayAttachedToAMapThatMoves) {
+  const Eigen::Vector3d t(0.3, -0.2, 0.1);
+  const std::vector<PointMatch> before = features_.Matches(map_);
+  for (int j = 0; j < map_.graph().num_nodes(); ++j) {
+    MutableNodeTranslation(map_.mutable_state().node(j)) += t;
+  }
+  const std::vector<PointMatch> after = features_.Matches(map_);
+  ASSERT_EQ(before.size(), after.size());
+  for (std::size_t k = 0; k < before.size(); ++k) {
+    EXPECT_LT((after[k].in_map - before[k].in_map - t).norm(), 1e-12);
+  }
+}
+
+TEST_F(FeaturePointsTest, AreGoneWhereThereIsNoSurface) {
+  DepthImage depth = RenderDepth(SmallCamera(), TiltedPlane(kDepth, 0.0, 0.0));
+  for (int v = 0; v < 120; ++v) {
+    for (int u = 0; u < 80; ++u) depth(u, v) = 0.0F;
+  }
+  const ObservedSurface half(depth, SmallCamera(), 1.0, ObservedSurfaceOptions());
+  features_.Track(TexturedPicture({0, 0}, EvenLight), half, map_, map_.state().camera_from_map);
+  EXPECT_GT(features_.size(), 0.3 * born_);
+  EXPECT_LT(features_.size(), 0.7 * born_);
+  for (const PointMatch& m : features_.Matches(map_)) EXPECT_GT(m.in_camera.x(), 0.0);
+  // New ones are looked for on what there is.
+  features_.Replenish(half, map_);
+  for (const PointMatch& m : features_.Matches(map_)) EXPECT_GT(m.in_camera.x(), 0.0);
+}
+
+TEST_F(FeaturePointsTest, DropThoseThatTheSolvedMapContradicts) {
+  // Right of the middle the tissue slides by 4 pixels, and the map doesn't follow there.
+  ColorImage torn = TexturedPicture({0.4, 0.0}, EvenLight);
+  const ColorImage slid = TexturedPicture({4.4, 0.0}, EvenLight);
+  for (int v = 0; v < 120; ++v) {
+    for (int u = 120; u < 160; ++u) torn(u, v) = slid(u, v);
+  }
+  features_.Track(torn, surface_, map_, map_.state().camera_from_map);
+  const int before = features_.size();
+  const double deviation = features_.DropOutliers(map_, 1e-4);
+  // The rest is off by 0.4 pixels: six times 1.48 of that is 3.6 pixels.
+  EXPECT_NEAR(deviation, 1.4826 * 0.4 * kPixel, 0.15 * kPixel);
+  EXPECT_LT(features_.size(), before - 3);
+  EXPECT_GT(features_.size(), 0.6 * before);
+  for (const PointMatch& m : features_.Matches(map_)) {
+    EXPECT_LE((map_.state().camera_from_map * m.in_map - m.in_camera).norm(), 6.0 * deviation);
+  }
+  // A bound from below: nothing is dropped for being off by less.
+  const int left = features_.size();
+  EXPECT_EQ(features_.DropOutliers(map_, 10.0), 10.0);
+  EXPECT_EQ(features_.size(), left);
+}
+
+TEST(FeaturePoints, WaitForAMap) {
+  FeaturePoints features(DenseFeatures());
+  const ObservedSurface surface = Sheet();
+  const DeformableMap map;
+  features.Track(TexturedPicture({0, 0}, EvenLight), surface, map, {});
+  features.Replenish(surface, map);
+  EXPECT_EQ(features.size(), 0);
+  EXPECT_TRUE(features.Matches(map).empty());
+  EXPECT_TRUE(features.Observations().empty());
+}
+
+}  // namespace
+}  // namespace ceres_ed

@@ -1,0 +1,139 @@
+// A strip half of which is seen, as a map with observations and as problems over the whole graph.
+#ifndef CERES_ED_TEST_SLAM_LEVEL_SCENES_H_
+#define CERES_ED_TEST_SLAM_LEVEL_SCENES_H_
+
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/slam/deformable_map.h>
+#include <ceres_ed/slam/levels.h>
+#include <ceres_ed/testing/test_problem.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+
+// 14 x 4 nodes, deformed a little, of whose cells the first three columns are seen: 16 PR nodes.
+// Targets are off by more than what the losses give way at.
+struct LevelScene {
+  LevelScene() : problem(MakeTestProblem(Options())) {
+    const DeformationState start = RandomState(problem, 0.05, 9);
+    for (int j = 0; j < problem.graph.num_nodes(); ++j) {
+      const Eigen::Vector3d g = problem.graph.position(j);
+      map.AddNode(g, g + NodeTranslation(start.node(j)), NodeAffine(start.node(j)));
+      // The average place isn't the present one.
+      map.AverageNode(j, 100.0);
+      MutableNodeTranslation(map.mutable_state().node(j)) += Eigen::Vector3d(0.02, -0.01, 0.03);
+    }
+    for (const GraphEdge& edge : problem.graph.edges()) map.mutable_graph().AddEdge(edge);
+    map.mutable_state().camera_from_map = start.camera_from_map;
+    observations.planes = Take(problem.correspondences);
+    // Every third one once more, point to point.
+    for (std::size_t k = 0; k < problem.correspondences.size(); k += 3) {
+      landmarks.push_back(problem.correspondences[k]);
+    }
+    observations.features = Take(landmarks);
+    observations.plane_width = 0.2;
+    observations.feature_width = 0.4;
+  }
+
+  static TestProblemOptions Options() {
+    TestProblemOptions options;
+    options.columns = 14;
+    options.rows = 4;
+    options.points_per_cell = 5;
+    options.observed_columns = 3;
+    options.has_camera = true;
+    options.target_deviation = 0.1;
+    return options;
+  }
+
+  std::vector<MapObservation> Take(const std::vector<Correspondence>& correspondences) const {
+    std::vector<MapObservation> taken;
+    for (const Correspondence& c : correspondences) {
+      taken.push_back(
+          {problem.points[c.point], problem.skinning[c.point], c.target, c.normal, c.weight});
+    }
+    return taken;
+  }
+
+  // The terms of LevelsOptions over the whole graph, at the present state.
+  std::unique_ptr<ProblemBuilder> WholeProblem(const LevelsOptions& options) const {
+    EnergyRegistry registry;
+    RegisterBuiltinEnergies(&registry);
+    EnergyContext context = problem.Context();
+    context.graph = &map.graph();
+    context.landmarks = &landmarks;
+    context.camera_prior = map.state().camera_from_map;
+    context.node_prior = &map.mean_translations();
+    auto builder = std::make_unique<ProblemBuilder>(map.graph(), /*has_camera=*/true);
+    const auto add = [&](const std::string& name,
+                         double weight,
+                         const LossSpec& loss = {},
+                         const std::map<std::string, double>& parameters = {}) {
+      const auto energy = registry.Create(name, parameters);
+      CHECK(energy.ok()) << energy.status().message();
+      const int term = builder->AddTerm(name, (*energy)->kind(), weight, loss);
+      builder->CollectResiduals(term, **energy, context);
+    };
+    add("rotation", options.rotation_weight);
+    add("regularization", options.regularization_weight);
+    add("node_prior", options.node_prior_weight);
+    // Data count per PR node: 16 of them.
+    const double data = options.plane_weight * 16.0 / problem.correspondences.size();
+    add("point_to_plane", data, {LossType::kTukey, observations.plane_width});
+    add("landmark", data * options.feature_weight, {LossType::kTukey, observations.feature_width});
+    add("pose_prior",
+        1.0,
+        {},
+        {{"rotation_sigma", options.prior_rotation_deg},
+         {"translation_sigma", options.prior_translation}});
+    return builder;
+  }
+
+  TestProblem problem;
+  std::vector<Correspondence> landmarks;
+  DeformableMap map;
+  // Bindings are those of `problem`.
+  FrameObservations observations;
+};
+
+// The same steps from the same start stay together to rounding, whereas how far a search gets is
+// known no better than to the root of it: three steps, whatever they gain.
+inline LevelsOptions ThreeSteps(int rings, SeamEdges seam_edges) {
+  LevelsOptions options;
+  options.rings = rings;
+  options.seam_edges = seam_edges;
+  options.solver.max_iterations = 3;
+  options.solver.function_tolerance = 0.0;
+  options.solver.gradient_tolerance = 0.0;
+  options.solver.parameter_tolerance = 0.0;
+  return options;
+}
+
+// Solves as far as the digits of the energy allow.
+inline LevelsOptions ExactLevels(int rings, SeamEdges seam_edges) {
+  LevelsOptions options;
+  options.rings = rings;
+  options.seam_edges = seam_edges;
+  options.solver.max_iterations = 300;
+  options.solver.function_tolerance = 0.0;
+  options.solver.gradient_tolerance = 1e-14;
+  options.solver.parameter_tolerance = 1e-14;
+  return options;
+}
+
+inline std::unique_ptr<Levels> MakeLevels(const LevelsOptions& options) {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  StatusOr<std::unique_ptr<Levels>> levels = Levels::Create(options, registry);
+  CHECK(levels.ok()) << levels.status().message();
+  return *std::move(levels);
+}
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_TEST_SLAM_LEVEL_SCENES_H_

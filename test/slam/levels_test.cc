@@ -1,0 +1,228 @@
+#include "ceres_ed/slam/levels.h"
+
+#include <ceres_ed/graph/node_neighborhood.h>
+#include <ceres_ed/solver/strategy.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <test/problem/strip_builder.h>
+#include <test/slam/level_scenes.h>
+
+namespace ceres_ed {
+namespace {
+
+using ::testing::HasSubstr;
+
+double LargestDifference(const DeformationState& a, const DeformationState& b) {
+  const std::vector<double> x = AllParameters(a);
+  const std::vector<double> y = AllParameters(b);
+  double largest = x.size() == y.size() ? 0.0 : 1.0;
+  for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
+  return largest;
+}
+
+bool SameNode(const DeformationState& a, const DeformationState& b, int node) {
+  return std::equal(a.node(node), a.node(node) + kNodeSize, b.node(node));
+}
+
+bool SameCamera(const DeformationState& a, const DeformationState& b) {
+  return a.camera_from_map.rotation.coeffs() == b.camera_from_map.rotation.coeffs() &&
+         a.camera_from_map.translation == b.camera_from_map.translation;
+}
+
+// Level I over the whole graph, in one problem whose nodes are held by constancy alone.
+LevelSummary SolveWholeLevelOne(const LevelScene& scene,
+                                const LevelsOptions& options,
+                                LinearSolver linear_solver,
+                                DeformationState* state) {
+  const auto builder = scene.WholeProblem(options);
+  const ProblemConfig config = LevelOneConfig(scene.map.graph(),
+                                              builder->PointRelevantNodes(),
+                                              /*has_camera=*/true,
+                                              options.seam_edges,
+                                              options.rings);
+  SolveSummary summary;
+  EXPECT_TRUE(
+      MakeLevelSolver(linear_solver)->Solve(*builder, config, options.solver, state, &summary));
+  return summary.levels.back();
+}
+
+TEST(Levels, LevelOneEqualsThatOfTheWholeGraph) {
+  for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
+    for (const int rings : {0, 2}) {
+      LevelScene scene;
+      const LevelsOptions options = ThreeSteps(rings, seam);
+      DeformationState expected = scene.map.state();
+      const LevelSummary whole =
+          SolveWholeLevelOne(scene, options, LinearSolver::kBlock, &expected);
+      const DeformationState before = scene.map.state();
+      const LevelReport report = MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+      EXPECT_NE(report.status, SolveStatus::kFailed);
+      EXPECT_EQ(report.point_relevant, 16);
+      EXPECT_EQ(report.variable_nodes, whole.num_variable_nodes);
+      EXPECT_EQ(report.variable_nodes, 4 * (4 + rings));
+      EXPECT_GT(report.iterations, 1);
+      EXPECT_NEAR(report.energy, whole.final_cost, 1e-9 * whole.final_cost);
+      EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-9) << rings;
+      EXPECT_GT(LargestDifference(scene.map.state(), before), 1e-3);
+    }
+  }
+}
+
+// Ceres takes other steps to the same place: as near to it as the root of the energy's rounding.
+TEST(Levels, LevelOneEndsWhereCeresDoes) {
+  LevelScene scene;
+  const LevelsOptions options = ExactLevels(2, SeamEdges::kKeep);
+  DeformationState expected = scene.map.state();
+  const LevelSummary whole = SolveWholeLevelOne(scene, options, LinearSolver::kCeres, &expected);
+  const LevelReport report = MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+  EXPECT_NEAR(report.energy, whole.final_cost, 1e-12 * whole.final_cost);
+  EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-7);
+}
+
+TEST(Levels, BothLevelsEqualTheTwoLevelStrategy) {
+  for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
+    for (const int rings : {0, 2}) {
+      LevelScene scene;
+      const LevelsOptions options = ThreeSteps(rings, seam);
+      StrategyOptions strategy;
+      strategy.mode = SolveMode::kTwoLevel;
+      strategy.rings = rings;
+      strategy.seam_edges = seam;
+      const auto builder = scene.WholeProblem(options);
+      DeformationState expected = scene.map.state();
+      const SolveSummary summary =
+          MakeStrategy(strategy)->Solve(*builder, options.solver, &expected);
+      ASSERT_EQ(summary.levels.size(), 2u);
+      const auto levels = MakeLevels(options);
+      const LevelReport one = levels->SolveLevelOne(scene.observations, &scene.map);
+      const LevelReport two = levels->SolveLevelTwo(&scene.map);
+      EXPECT_NEAR(one.energy, summary.levels[0].final_cost, 1e-9 * one.energy);
+      EXPECT_NEAR(two.energy, summary.levels[1].final_cost, 1e-9 * two.energy);
+      EXPECT_EQ(two.variable_nodes, 14 * 4 - 16);
+      EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-9) << rings;
+    }
+  }
+}
+
+TEST(Levels, WithoutRingsToCountEqualTheBatchStrategy) {
+  LevelScene scene;
+  const LevelsOptions options = ThreeSteps(-1, SeamEdges::kKeep);
+  const auto builder = scene.WholeProblem(options);
+  DeformationState expected = scene.map.state();
+  const SolveSummary summary =
+      MakeStrategy(StrategyOptions())->Solve(*builder, options.solver, &expected);
+  const LevelReport report = MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+  EXPECT_EQ(report.variable_nodes, 14 * 4);
+  EXPECT_NEAR(report.energy, summary.final_energy, 1e-9 * report.energy);
+  EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-9);
+}
+
+TEST(Levels, LeaveHeldNodesAsTheyAreToTheBit) {
+  for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
+    LevelScene scene;
+    LevelsOptions options;
+    options.rings = 1;
+    options.seam_edges = seam;
+    const auto levels = MakeLevels(options);
+    const DeformationState start = scene.map.state();
+    levels->SolveLevelOne(scene.observations, &scene.map);
+    const DeformationState after_one = scene.map.state();
+    // The nodes of the first four columns see points; one ring more moves.
+    for (int j = 0; j < 14 * 4; ++j) {
+      EXPECT_EQ(levels->point_relevant()[j] != 0, j < 16) << j;
+      EXPECT_EQ(levels->moved_nodes()[j] != 0, j < 20) << j;
+      EXPECT_EQ(SameNode(start, after_one, j), j >= 20) << j;
+    }
+    EXPECT_FALSE(SameCamera(start, after_one));
+    levels->SolveLevelTwo(&scene.map);
+    for (int j = 0; j < 14 * 4; ++j) {
+      EXPECT_EQ(SameNode(after_one, scene.map.state(), j), j < 16) << j;
+    }
+    EXPECT_TRUE(SameCamera(after_one, scene.map.state()));
+  }
+}
+
+TEST(Levels, HoldTheCameraWhereItIsGiven) {
+  LevelScene scene;
+  LevelsOptions options;
+  options.camera_variable = false;
+  const DeformationState start = scene.map.state();
+  MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+  EXPECT_TRUE(SameCamera(start, scene.map.state()));
+  EXPECT_GT(LargestDifference(start, scene.map.state()), 1e-3);
+}
+
+TEST(Levels, MoveNothingWhenTheyFail) {
+  LevelScene scene;
+  const DeformationState start = scene.map.state();
+  scene.observations.planes[7].target.y() = std::numeric_limits<double>::quiet_NaN();
+  const auto levels = MakeLevels(LevelsOptions());
+  const LevelReport report = levels->SolveLevelOne(scene.observations, &scene.map);
+  EXPECT_EQ(report.status, SolveStatus::kFailed);
+  EXPECT_EQ(report.variable_nodes, 0);
+  EXPECT_EQ(LargestDifference(start, scene.map.state()), 0.0);
+  EXPECT_TRUE(SameCamera(start, scene.map.state()));
+  // The next frame is none the worse for it.
+  LevelScene fresh;
+  LevelScene control;
+  levels->SolveLevelOne(fresh.observations, &fresh.map);
+  MakeLevels(LevelsOptions())->SolveLevelOne(control.observations, &control.map);
+  EXPECT_LT(LargestDifference(fresh.map.state(), control.map.state()), 1e-12);
+}
+
+TEST(Levels, HaveNothingToDoInLevelTwoWhenAllIsSeen) {
+  LevelScene scene;
+  const auto levels = MakeLevels(LevelsOptions());
+  std::vector<Correspondence> all;
+  for (int p = 0; p < static_cast<int>(scene.problem.points.size()); ++p) {
+    all.push_back({p, scene.problem.points[p], Eigen::Vector3d::UnitZ(), 1.0});
+  }
+  scene.observations.planes = scene.Take(all);
+  EXPECT_EQ(levels->SolveLevelOne(scene.observations, &scene.map).point_relevant, 14 * 4);
+  const DeformationState after_one = scene.map.state();
+  EXPECT_EQ(levels->SolveLevelTwo(&scene.map).variable_nodes, 0);
+  EXPECT_EQ(LargestDifference(after_one, scene.map.state()), 0.0);
+}
+
+TEST(Levels, CountDataPerNodeWhateverTheirNumber) {
+  LevelScene once;
+  LevelScene twice;
+  auto& planes = twice.observations.planes;
+  auto& features = twice.observations.features;
+  planes.insert(planes.end(), once.observations.planes.begin(), once.observations.planes.end());
+  features.insert(
+      features.end(), once.observations.features.begin(), once.observations.features.end());
+  const LevelsOptions options = ExactLevels(2, SeamEdges::kKeep);
+  const LevelReport a = MakeLevels(options)->SolveLevelOne(once.observations, &once.map);
+  const LevelReport b = MakeLevels(options)->SolveLevelOne(twice.observations, &twice.map);
+  EXPECT_NEAR(a.energy, b.energy, 1e-9 * a.energy);
+  EXPECT_LT(LargestDifference(once.map.state(), twice.map.state()), 1e-9);
+}
+
+TEST(Levels, TakeMoreEnergiesByName) {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  LevelsOptions options;
+  options.energies = {{"rotaton", 1.0, {}, {}}};
+  EXPECT_THAT(Levels::Create(options, registry).status().message(), HasSubstr("rotaton"));
+  options.energies = {{"rotation", 1.0, {}, {{"gain", 1.0}}}};
+  EXPECT_THAT(Levels::Create(options, registry).status().message(), HasSubstr("gain"));
+  // A second rotation term is as good as a larger weight of the first.
+  LevelScene more;
+  LevelScene heavier;
+  LevelsOptions exact = ExactLevels(2, SeamEdges::kKeep);
+  exact.energies = {{"rotation", 0.3, {}, {}}};
+  MakeLevels(exact)->SolveLevelOne(more.observations, &more.map);
+  exact.energies.clear();
+  exact.rotation_weight += 0.3;
+  MakeLevels(exact)->SolveLevelOne(heavier.observations, &heavier.map);
+  EXPECT_LT(LargestDifference(more.map.state(), heavier.map.state()), 1e-9);
+}
+
+}  // namespace
+}  // namespace ceres_ed
