@@ -1,0 +1,148 @@
+#!/usr/bin/env python3
+"""Makes every experiment of the paper: figures and tables, batch against two-level.
+
+  a  growing maps: time and nodes a frame against the frame's number, on sequences whose camera
+     circles an organ, so that most of the map comes to lie out of view (paper_time.png); and the
+     ratio of times at their end, medians of the last 20 frames
+  b  accuracy on the same runs: means of map to scan (rms distance of inliers to the planes, and
+     |z - depth| at the pixel), of map points in view to the true surface, and of tracking errors,
+     with what two-level loses against batch in percent
+  c  a plane that is warped under a still camera, which then sees half of it (paper_plane.png);
+     "level I" are the nodes that it moves, "to batch" the mean distance of all points to where
+     batch has them
+  d  a dolphin bent by handles alone (paper_dolphin.png), distances in percent of its diagonal
+
+Two-level runs as by default (2 rings, keep) in a and b. Writes the pictures, tables.md and
+results.json to --output. Runs one after the other; simulates two sequences at a time before, into
+--cache, where the next run finds them. Needs python3-numpy and python3-matplotlib. Exits with 1
+when a run fails, with 2 on a wrong call.
+
+  scripts/paper_experiments.py
+  scripts/paper_experiments.py --readme=README.md      # and its tables and scripts/images/
+  scripts/paper_experiments.py --quick --output=/tmp/paper
+"""
+import argparse
+import json
+import re
+import shlex
+import shutil
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+# First of those that need numpy and matplotlib: it says so where they are missing.
+import mesh_picture  # noqa: F401
+from bench_tables import check_marks, write_between
+from paper_deformations import run_dolphin, run_plane
+from paper_sequences import run_growing
+from program_runs import PROGRAM, ROOT, RunFailed, wrong_call
+from sequence_runs import CACHE, SCENES
+
+BEGIN, END = "<!-- paper_experiments.py: begin -->", "<!-- paper_experiments.py: end -->"
+PICTURES = ("paper_time.png", "paper_plane.png", "paper_dolphin.png")
+EXPERIMENTS = "abcd"
+
+
+def parse_options():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/apps", metavar="DIR",
+                        help="folder of the programs [build/release/apps]")
+    parser.add_argument("--output", type=Path, default=ROOT / "build/paper", metavar="DIR",
+                        help="folder to write [build/paper]")
+    parser.add_argument("--cache", type=Path, default=CACHE, metavar="DIR",
+                        help="where simulated sequences are kept [build/sequences]")
+    parser.add_argument("--fresh", action="store_true", help="simulate again what --cache holds")
+    parser.add_argument("--scenes", default="heart,kidney,stomach", metavar="NAMES",
+                        help="of a and b [heart,kidney,stomach]")
+    parser.add_argument("--frames", type=int, default=210, help="of a and b [210: once around]")
+    parser.add_argument("--size", default="320x240", metavar="WxH",
+                        help="of the pictures of a and b [320x240, those of the paper]")
+    parser.add_argument("--experiments", default=EXPERIMENTS, metavar="LETTERS",
+                        help="those to make [abcd]; a and b come together")
+    parser.add_argument("--quick", action="store_true",
+                        help="small pictures, few frames: to see that everything works")
+    parser.add_argument("--flags", default="", help="more flags of ed_slam, of all runs [none]")
+    parser.add_argument("--readme", metavar="FILE",
+                        help="also put the tables between the marks of this README.md and the "
+                        "pictures into images/ beside this script")
+    options = parser.parse_args()
+    options.scenes = [name for name in options.scenes.split(",") if name]
+    unknown = set(options.scenes) - set(SCENES)
+    if unknown or not options.scenes:
+        parser.error(f"--scenes: {', '.join(sorted(unknown)) or 'none'}, expected some of "
+                     f"{', '.join(SCENES)}")
+    if not options.experiments or set(options.experiments) - set(EXPERIMENTS):
+        parser.error(f"--experiments={options.experiments}, expected some of {EXPERIMENTS}")
+    if not re.fullmatch(r"[0-9]+x[0-9]+", options.size):
+        parser.error(f"--size={options.size}, expected such as 320x240")
+    if options.frames < 2:
+        parser.error(f"--frames={options.frames}, expected 2 or more")
+    if options.readme:
+        if options.quick or set(options.experiments) != set(EXPERIMENTS):
+            parser.error("--readme takes all experiments, and none of them quick")
+        check_marks(options.readme, BEGIN, END)
+    for program in ("ed_slam", "ed_simulate", "ed_eval", "ed_fit"):
+        if not (options.bin / program).exists():
+            wrong_call(f"{options.bin / program} is not there; build it or name its folder")
+    settle_sizes(options)
+    return options
+
+
+def settle_sizes(options):
+    options.live_every = 5
+    options.slam_flags = shlex.split(options.flags)
+    width, _, height = options.size.partition("x")
+    options.simulate_flags = [f"--frames={options.frames}", f"--width={width}",
+                              f"--height={height}"]
+    options.plane_flags = []
+    if options.quick:
+        small = ["--width=160", "--height=120", "--vertices=2000"]
+        options.simulate_flags = ["--frames=12", *small]
+        options.plane_flags = ["--frames=5", *small]
+        options.slam_flags.append("--nodes_in_view=80")
+
+
+def run_all(options, work):
+    """Returns the Markdown of everything and what goes into the JSON file."""
+    parts, results = [], {}
+    if set("ab") & set(options.experiments):
+        results["growing"], growth, accuracy = run_growing(options, work, options.output)
+        parts += ["**Time at the end of each sequence** (medians of its last 20 frames)", growth,
+                  "**Accuracy**", accuracy]
+    if "c" in options.experiments:
+        parts += ["**A plane warped under a still camera**",
+                  run_plane(options, work, options.output)]
+    if "d" in options.experiments:
+        parts += ["**The dolphin bent by handles**", run_dolphin(options, work, options.output)]
+    texts = ["\n".join(part) if isinstance(part, list) else part for part in parts]
+    return "\n\n".join(texts), results
+
+
+def main():
+    options = parse_options()
+    start = time.monotonic()
+    def say(text):
+        print(f"[{time.monotonic() - start:4.0f} s] {text}", file=sys.stderr)
+    options.say = say
+    options.output.mkdir(parents=True, exist_ok=True)
+    with tempfile.TemporaryDirectory(prefix="paper_experiments_") as work:
+        try:
+            page, results = run_all(options, Path(work))
+        except RunFailed as error:
+            print(f"{PROGRAM}: {error}", file=sys.stderr)
+            return 1
+    (options.output / "tables.md").write_text(page + "\n")
+    (options.output / "results.json").write_text(json.dumps(results, indent=1) + "\n")
+    print(page)
+    if options.readme:
+        write_between(options.readme, BEGIN, END, page)
+        for name in PICTURES:
+            shutil.copy(options.output / name, ROOT / "scripts/images" / name)
+    say(f"done: {options.output}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
