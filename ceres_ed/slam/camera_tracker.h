@@ -26,8 +26,8 @@ struct CameraTrackerOptions {
   AssociationOptions association;
   // Weight of one point match against one point-to-plane match, >= 0.
   double match_weight = 4.0;
-  // Pull toward the start, relative to the data's: settles what the data leave open, >= 0.
-  double prior = 1e-3;
+  // Of each step, relative to the data: leaves alone what they leave open, >= 0.
+  double damping = 1e-3;
 };
 
 struct CameraTrackerResult {

@@ -4,6 +4,7 @@
 #include <ceres_ed/slam/feature_points.h>
 #include <ceres_ed/slam/levels.h>
 #include <ceres_ed/slam/slam.h>
+#include <ceres_ed/slam/tissue_memory.h>
 
 #include <algorithm>
 #include <array>
@@ -66,7 +67,8 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
   }
   archive->Array("node_parameters", &parameters);
   if (!archive->saving()) node_prior_.assign(positions.size(), Eigen::Vector3d::Zero());
-  archive->Column("node_prior", &node_prior_, [](auto& t) -> auto& { return t; });
+  archive->Column(
+      "node_prior", &node_prior_, [](auto& t) -> auto& { return t; });
   ExchangePose("camera_from_map", &state_.camera_from_map, archive);
   if (archive->saving() || !archive->status().ok()) return;
   graph_ = DeformationGraph();
@@ -165,13 +167,43 @@ void Levels::Exchange(CheckpointArchive* archive) {
   archive->Leave();
 }
 
+void TissueMemory::Exchange(CheckpointArchive* archive) {
+  // One row for each trace of each node.
+  struct Row {
+    int node = 0;
+    int moment = 0;
+    Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  };
+  std::vector<Row> rows;
+  for (int j = 0; j < static_cast<int>(traces_.size()); ++j) {
+    for (const Trace& trace : traces_[j]) rows.push_back({j, trace.moment, trace.translation});
+  }
+  int num_nodes = static_cast<int>(traces_.size());
+  archive->Enter("memory");
+  archive->Value("next_moment", &next_moment_);
+  archive->Value("stride", &stride_);
+  archive->Value("kept", &kept_);
+  archive->Value("nodes", &num_nodes);
+  ExchangeCount("traces", &rows, archive);
+  archive->Column("node", &rows, [](Row& row) -> int& { return row.node; });
+  archive->Column("moment", &rows, [](Row& row) -> int& { return row.moment; });
+  archive->Column(
+      "translation", &rows, [](Row & row) -> auto& { return row.translation; });
+  archive->Leave();
+  if (archive->saving() || !archive->status().ok()) return;
+  traces_.assign(static_cast<std::size_t>(num_nodes), {});
+  for (const Row& row : rows) traces_.at(row.node).push_back({row.moment, row.translation});
+}
+
 void DeformableSlam::Exchange(CheckpointArchive* archive) {
   archive->Enter("slam");
   archive->Value("unit", &unit_);
   ExchangePose("world_from_map", &world_from_map_, archive);
   ExchangePose("camera_step", &camera_step_, archive);
+  archive->Value("points_before", &points_before_);
   map_.Exchange(archive);
   features_.Exchange(archive);
+  memory_.Exchange(archive);
   levels_->Exchange(archive);
   archive->Leave();
   levels_->ForgetSolvers();

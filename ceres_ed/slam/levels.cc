@@ -9,22 +9,40 @@
 namespace ceres_ed {
 namespace {
 
-// The observations of a frame over a window: what energies look at.
+// Steps that are added where the first ones were all refused.
+constexpr int kMoreSteps = 5;
+
+// What energies look at, over a window.
 struct WindowObservations {
   std::vector<Eigen::Vector3d> points;
   Skinning skinning;
   std::vector<Correspondence> planes;
   std::vector<Correspondence> features;
+  std::vector<Eigen::Vector3d> node_prior;
 
   WindowObservations(const FrameObservations& observations,
                      const LevelWindowBuilder& windows,
-                     int stride)
-      : skinning(stride) {
+                     const DeformableMap& map,
+                     const LevelWindow& window)
+      : skinning(map.neighbors()) {
     const std::size_t count = observations.planes.size() + observations.features.size();
     points.reserve(count);
     skinning.Reserve(count);
     planes = Take(observations.planes, windows);
     features = Take(observations.features, windows);
+    node_prior.reserve(window.nodes.size());
+    for (const int node : window.nodes) node_prior.push_back(map.node_prior()[node]);
+  }
+
+  EnergyContext Context(const LevelWindow& window) const {
+    EnergyContext context;
+    context.graph = &window.graph;
+    context.points = &points;
+    context.skinning = &skinning;
+    context.correspondences = &planes;
+    context.landmarks = &features;
+    context.node_prior = &node_prior;
+    return context;
   }
 
  private:
@@ -48,14 +66,16 @@ struct WindowObservations {
   }
 };
 
-std::vector<Eigen::Vector3d> NodePrior(const DeformableMap& map, const LevelWindow& window) {
-  std::vector<Eigen::Vector3d> prior;
-  prior.reserve(window.nodes.size());
-  for (const int node : window.nodes) prior.push_back(map.node_prior()[node]);
-  return prior;
+// Observations change with every step, so that more than one on the same is wasted.
+SolverOptions OneStep() {
+  SolverOptions options;
+  options.max_iterations = 1;
+  return options;
 }
 
 }  // namespace
+
+LevelsOptions::LevelsOptions() : solver(OneStep()) {}
 
 StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
                                                  const EnergyRegistry& registry) {
@@ -111,93 +131,83 @@ std::vector<int> Levels::VariableNodes(const DeformableMap& map) {
 }
 
 LevelReport Levels::SolveLevelOne(const FrameObservations& observations, DeformableMap* map) {
-  LevelReport report;
   MarkPointRelevant(observations, map->graph().num_nodes());
-  report.point_relevant =
-      static_cast<int>(std::count(point_relevant_.begin(), point_relevant_.end(), 1));
   LevelWindow window = windows_.Build(map->graph(), map->state(), VariableNodes(*map), /*held=*/{});
-  const WindowObservations seen(observations, windows_, map->neighbors());
-
-  EnergyContext context;
-  context.graph = &window.graph;
-  context.points = &seen.points;
-  context.skinning = &seen.skinning;
-  context.correspondences = &seen.planes;
-  context.landmarks = &seen.features;
+  const WindowObservations seen(observations, windows_, *map, window);
+  // Data count per PR node, whatever the density of points.
+  const int point_relevant =
+      static_cast<int>(std::count(point_relevant_.begin(), point_relevant_.end(), 1));
+  const double per_node =
+      static_cast<double>(point_relevant) / std::max<std::size_t>(1, seen.planes.size());
+  EnergyContext context = seen.Context(window);
   context.has_camera = true;
   context.camera_prior = map->state().camera_from_map;
-  const std::vector<Eigen::Vector3d> node_prior = NodePrior(*map, window);
-  context.node_prior = &node_prior;
-
-  // Data count per PR node, whatever the density of points.
-  const double per_node =
-      static_cast<double>(report.point_relevant) / std::max<std::size_t>(1, seen.planes.size());
   ProblemBuilder builder(window.graph, /*has_camera=*/true);
   for (const Term& term : terms_) {
     LossSpec loss = term.loss;
-    double weight = term.weight;
-    if (term.observation) weight *= per_node;
     if (term.name == "point_to_plane") loss.width = observations.plane_width;
     if (term.name == "landmark") loss.width = observations.feature_width;
+    const double weight = term.weight * (term.observation ? per_node : 1.0);
     const int index = builder.AddTerm(term.name, term.energy->kind(), weight, loss);
     builder.CollectResiduals(index, *term.energy, context);
   }
-  SolveSummary summary;
-  const bool solved =
-      level_one_->Solve(builder,
-                        window.Config(options_.camera_variable, options_.seam_edges),
-                        options_.solver,
-                        &window.state,
-                        &summary);
-  report.status = summary.status;
-  if (!solved) return report;
-  report.variable_nodes = window.num_variable;
-  report.iterations = summary.TotalIterations();
-  report.initial_energy = summary.levels.back().initial_cost;
-  report.energy = summary.levels.back().final_cost;
-  WriteBack(window, &map->mutable_state());
-  map->mutable_state().camera_from_map = window.state.camera_from_map;
+  LevelReport report = Solve(builder,
+                             window.Config(options_.camera_variable, options_.seam_edges),
+                             level_one_.get(),
+                             &window,
+                             map);
+  report.point_relevant = point_relevant;
   return report;
 }
 
 LevelReport Levels::SolveLevelTwo(DeformableMap* map) {
-  LevelReport report;
   std::vector<int> variable;
   for (int j = 0; j < map->graph().num_nodes(); ++j) {
     if (point_relevant_[j] == 0) variable.push_back(j);
   }
-  if (variable.empty()) return report;
+  if (variable.empty()) return LevelReport();
   LevelWindow window = windows_.Build(map->graph(), map->state(), variable, /*held=*/{});
-  EnergyContext context;
-  const std::vector<Eigen::Vector3d> no_points;
-  const Skinning no_skinning(map->neighbors());
-  const std::vector<Correspondence> none;
-  context.graph = &window.graph;
-  context.points = &no_points;
-  context.skinning = &no_skinning;
-  context.correspondences = &none;
-  context.landmarks = &none;
-  const std::vector<Eigen::Vector3d> node_prior = NodePrior(*map, window);
-  context.node_prior = &node_prior;
+  const WindowObservations nothing({}, windows_, *map, window);
+  const EnergyContext context = nothing.Context(window);
   ProblemBuilder builder(window.graph, /*has_camera=*/false);
   for (const Term& term : terms_) {
     if (term.observation || term.name == "pose_prior") continue;
     const int index = builder.AddTerm(term.name, term.energy->kind(), term.weight, term.loss);
     builder.CollectResiduals(index, *term.energy, context);
   }
+  return Solve(builder,
+               window.Config(/*camera_variable=*/false, SeamEdges::kKeep),
+               level_two_.get(),
+               &window,
+               map);
+}
+
+LevelReport Levels::Solve(const ProblemBuilder& builder,
+                          const ProblemConfig& config,
+                          LevelSolver* solver,
+                          LevelWindow* window,
+                          DeformableMap* map) {
+  LevelReport report;
+  SolverOptions options = options_.solver;
   SolveSummary summary;
-  const bool solved = level_two_->Solve(builder,
-                                        window.Config(/*camera_variable=*/false, SeamEdges::kKeep),
-                                        options_.solver,
-                                        &window.state,
-                                        &summary);
+  bool solved = solver->Solve(builder, config, options, &window->state, &summary);
+  const auto moved = [&summary] {
+    return summary.levels.back().final_cost < summary.levels.back().initial_cost;
+  };
+  if (solved && summary.status == SolveStatus::kMaxIterations && !moved()) {
+    options.max_iterations += kMoreSteps;
+    solved = solver->Solve(builder, config, options, &window->state, &summary);
+  }
   report.status = summary.status;
   if (!solved) return report;
-  report.variable_nodes = window.num_variable;
+  report.variable_nodes = window->num_variable;
   report.iterations = summary.TotalIterations();
   report.initial_energy = summary.levels.back().initial_cost;
   report.energy = summary.levels.back().final_cost;
-  WriteBack(window, &map->mutable_state());
+  WriteBack(*window, &map->mutable_state());
+  if (config.camera_variable) {
+    map->mutable_state().camera_from_map = window->state.camera_from_map;
+  }
   return report;
 }
 

@@ -42,12 +42,14 @@ struct FrameObservations {
 };
 
 struct LevelsOptions {
+  LevelsOptions();
+
   // Lengths are node spacings, and the data are counted per PR node, so that these mean the same
   // at any scale and density. All >= 0.
   double rotation_weight = 0.1;
   double regularization_weight = 0.1;
-  // Of nodes to their average place: holds what nobody sees, and the camera against the tissue.
-  double node_prior_weight = 0.003;
+  // Of nodes to where they are thought to be: holds what nobody sees.
+  double node_prior_weight = 0.01;
   double plane_weight = 1.0;
   // Of one feature against one plane.
   double feature_weight = 4.0;
@@ -59,6 +61,8 @@ struct LevelsOptions {
   int rings = 2;
   SeamEdges seam_edges = SeamEdges::kKeep;
   LinearSolver linear_solver = LinearSolver::kBlock;
+  // One step by default: the observations change with it. More are taken only where the first ones
+  // bring nothing.
   SolverOptions solver;
   // More energies, by name.
   std::vector<EnergySpec> energies;
@@ -82,9 +86,7 @@ class Levels {
   static StatusOr<std::unique_ptr<Levels>> Create(const LevelsOptions& options,
                                                   const EnergyRegistry& registry);
 
-  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved. One
-  // step of the solver, for the observations change with it; more only where that one brings
-  // nothing.
+  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved.
   LevelReport SolveLevelOne(const FrameObservations& observations, DeformableMap* map);
 
   // Level II (Eq. 15): moves the nodes that Level I has held.
@@ -115,6 +117,12 @@ class Levels {
   explicit Levels(const LevelsOptions& options) : options_(options) {}
   void MarkPointRelevant(const FrameObservations& observations, int num_nodes);
   std::vector<int> VariableNodes(const DeformableMap& map);
+  // Solves a level of the window and takes what it has moved over into the map.
+  LevelReport Solve(const ProblemBuilder& builder,
+                    const ProblemConfig& config,
+                    LevelSolver* solver,
+                    LevelWindow* window,
+                    DeformableMap* map);
 
   LevelsOptions options_;
   std::vector<Term> terms_;

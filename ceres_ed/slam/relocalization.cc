@@ -65,6 +65,7 @@ PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
   quality.overlap =
       static_cast<double>(result.matches.size()) / static_cast<double>(visible.size());
   quality.deviation = result.deviation;
+  quality.points = static_cast<int>(result.matches.size());
   // Each point covers a square of its spacing; their sum is compared with that of the patches.
   double covered = 0.0;
   const double focal = surface.camera().fx * surface.camera().fy;

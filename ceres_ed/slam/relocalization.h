@@ -20,6 +20,8 @@ struct PoseQuality {
   double coverage = 0.0;
   // Spread of their distances, map units.
   double deviation = 0.0;
+  // Points on the observed surface.
+  int points = 0;
 
   // One number to compare poses by: both shares count, the smaller one more, and a wide spread
   // halves it.

@@ -18,6 +18,7 @@ constexpr int kLeastRounds = 2;
 constexpr double kSmallGain = 0.1;
 // A pose found from scratch replaces a tracked one whose score it beats by this factor.
 constexpr double kClearlyBetter = 1.2;
+constexpr double kLeastOfBefore = 0.4;
 
 CameraPose Compose(const CameraPose& a, const CameraPose& b) {
   CameraPose pose;
@@ -66,7 +67,10 @@ std::string FrameStatusName(FrameStatus status) {
 }
 
 DeformableSlam::DeformableSlam(const PinholeCamera& camera, const SlamOptions& options)
-    : camera_(camera), options_(options), map_(options.neighbors), features_(options.feature),
+    : camera_(camera),
+      options_(options),
+      map_(options.neighbors),
+      features_(options.feature),
       memory_(options.memory) {}
 
 StatusOr<std::unique_ptr<DeformableSlam>> DeformableSlam::Create(const PinholeCamera& camera,
@@ -187,12 +191,16 @@ bool DeformableSlam::Confirm(const ObservedSurface& surface,
   PoseQuality quality = JudgePose(visible_, *pose, surface, judge);
   if (!judge.Doubts(quality)) return true;
   const Relocalization other = Relocalize(map_, surface, before, VisibilityOptions(), judge);
-  if (other.quality.Score() > kClearlyBetter * quality.Score()) {
+  // A flat piece of anything fits somewhere: what is found from scratch must show no weakness, and
+  // about as much of the map as was seen before.
+  const bool sound =
+      !judge.Doubts(other.quality) && other.quality.points >= kLeastOfBefore * points_before_;
+  if (sound && other.quality.Score() > kClearlyBetter * quality.Score()) {
     *pose = other.camera_from_map;
-    quality = other.quality;
     report->status = FrameStatus::kRelocalized;
     visible_ = FindVisible(map_, *pose, camera_, VisibilityOptions());
     features_.Clear();
+    return true;
   }
   return judge.Believes(quality);
 }
@@ -261,6 +269,7 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* r
     squares += m.distance * m.distance;
   }
   report->points = static_cast<int>(association.matches.size());
+  points_before_ = report->points;
   report->rms_plane = std::sqrt(squares / std::max(1, report->inliers)) * unit_;
   report->features = features_.size();
   report->times.associate += timer.Restart();

@@ -169,6 +169,8 @@ class DeformableSlam {
   std::vector<VisiblePoint> visible_;
   // Metres. The map's frame is that of the first camera.
   CameraPose world_from_map_;
+  // Points on the observed surface in the last frame that was tracked.
+  int points_before_ = 0;
   // The last step of the camera, for the prediction of the next.
   CameraPose camera_step_;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <cost_functions/node_parameters.h>
 
@@ -28,17 +29,15 @@ void TissueMemory::Keep(const DeformableMap& map, const std::vector<char>& obser
     if (observed[j] == 0) continue;
     traces_[j].push_back({moment, NodeTranslation(map.state().node(j))});
   }
-  moments_.push_back(moment);
-  if (static_cast<int>(moments_.size()) > options_.max_moments) Thin();
+  if (++kept_ > options_.max_moments) Thin();
 }
 
 void TissueMemory::Thin() {
   stride_ *= 2;
-  const auto goes = [this](int moment) { return moment % stride_ != 0; };
-  moments_.erase(std::remove_if(moments_.begin(), moments_.end(), goes), moments_.end());
+  kept_ = (next_moment_ - 1) / stride_ + 1;
+  const auto goes = [this](const Trace& trace) { return trace.moment % stride_ != 0; };
   for (std::vector<Trace>& trace : traces_) {
-    const auto trace_goes = [&](const Trace& t) { return goes(t.moment); };
-    trace.erase(std::remove_if(trace.begin(), trace.end(), trace_goes), trace.end());
+    trace.erase(std::remove_if(trace.begin(), trace.end(), goes), trace.end());
   }
 }
 

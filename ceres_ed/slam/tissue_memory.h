@@ -10,6 +10,8 @@
 
 namespace ceres_ed {
 
+class CheckpointArchive;
+
 struct TissueMemoryOptions {
   // Moments that are kept, >= 2; when there are more, every second one is forgotten.
   int max_moments = 200;
@@ -35,6 +37,9 @@ class TissueMemory {
   std::vector<Eigen::Vector3d> Recall(const DeformableMap& map,
                                       const std::vector<char>& observed) const;
 
+  // For checkpoints.
+  void Exchange(CheckpointArchive* archive);
+
  private:
   struct Trace {
     int moment;
@@ -43,9 +48,10 @@ class TissueMemory {
   void Thin();
 
   TissueMemoryOptions options_;
-  // Moments kept, oldest first, by their number.
-  std::vector<int> moments_;
+  // Moments kept, and the number of the next one.
+  int kept_ = 0;
   int next_moment_ = 0;
+  // Only moments whose number it divides are kept.
   int stride_ = 1;
   // What each node did, oldest first.
   std::vector<std::vector<Trace>> traces_;

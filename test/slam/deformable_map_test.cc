@@ -72,10 +72,10 @@ TEST(DeformableMap, PutsANodeWhereItIsNow) {
     EXPECT_EQ(NodeAffine(map.state().node(j)), affine);
     EXPECT_LT((map.NodePosition(j) - now).norm(), 1e-14);
     EXPECT_TRUE(map.points_of_node(j).empty());
-    EXPECT_EQ(map.mean_translations()[j], now - at_rest);
+    EXPECT_EQ(map.node_prior()[j], now - at_rest);
   }
   EXPECT_EQ(map.state().num_nodes(), 5);
-  EXPECT_EQ(map.mean_translations().size(), 5u);
+  EXPECT_EQ(map.node_prior().size(), 5u);
 }
 
 // What the map should hold: for each slot in use its point's id and strongest node.
@@ -164,31 +164,6 @@ TEST(DeformableMap, WarpsABindingAsTheGraphDoes) {
     const Eigen::Vector3d x = RandomVector(5.0, &random);
     EXPECT_LT((warp * x - WarpPoint(map.graph(), map.state(), binding.Get(), x)).norm(), 1e-13);
   }
-}
-
-TEST(DeformableMap, AveragesANodeOverTheFramesItWasSeenIn) {
-  SyntheticRandom random(5);
-  DeformableMap map = RandomNodes(2, &random);
-  const Eigen::Vector3d untouched = map.mean_translations()[1];
-  // As long as memory reaches: the plain mean; the place at birth doesn't count.
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int frame = 1; frame <= 4; ++frame) {
-    const Eigen::Vector3d t = RandomVector(1.0, &random);
-    MutableNodeTranslation(map.mutable_state().node(0)) = t;
-    sum += t;
-    map.AverageNode(0, 4.0);
-    EXPECT_LT((map.mean_translations()[0] - sum / frame).norm(), 1e-14);
-  }
-  // Then each frame counts a quarter.
-  Eigen::Vector3d mean = sum / 4.0;
-  for (int frame = 0; frame < 30; ++frame) {
-    const Eigen::Vector3d t = RandomVector(1.0, &random);
-    MutableNodeTranslation(map.mutable_state().node(0)) = t;
-    mean = 0.75 * mean + 0.25 * t;
-    map.AverageNode(0, 4.0);
-    EXPECT_LT((map.mean_translations()[0] - mean).norm(), 1e-14);
-  }
-  EXPECT_EQ(map.mean_translations()[1], untouched);
 }
 
 }  // namespace

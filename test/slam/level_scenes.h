@@ -24,8 +24,7 @@ struct LevelScene {
     for (int j = 0; j < problem.graph.num_nodes(); ++j) {
       const Eigen::Vector3d g = problem.graph.position(j);
       map.AddNode(g, g + NodeTranslation(start.node(j)), NodeAffine(start.node(j)));
-      // The average place isn't the present one.
-      map.AverageNode(j, 100.0);
+      // Where a node is thought to be isn't where it is.
       MutableNodeTranslation(map.mutable_state().node(j)) += Eigen::Vector3d(0.02, -0.01, 0.03);
     }
     for (const GraphEdge& edge : problem.graph.edges()) map.mutable_graph().AddEdge(edge);
@@ -68,7 +67,7 @@ struct LevelScene {
     context.graph = &map.graph();
     context.landmarks = &landmarks;
     context.camera_prior = map.state().camera_from_map;
-    context.node_prior = &map.mean_translations();
+    context.node_prior = &map.node_prior();
     auto builder = std::make_unique<ProblemBuilder>(map.graph(), /*has_camera=*/true);
     const auto add = [&](const std::string& name,
                          double weight,

@@ -197,7 +197,7 @@ TEST(Levels, CountDataPerNodeWhateverTheirNumber) {
   planes.insert(planes.end(), once.observations.planes.begin(), once.observations.planes.end());
   features.insert(
       features.end(), once.observations.features.begin(), once.observations.features.end());
-  const LevelsOptions options = ExactLevels(2, SeamEdges::kKeep);
+  const LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
   const LevelReport a = MakeLevels(options)->SolveLevelOne(once.observations, &once.map);
   const LevelReport b = MakeLevels(options)->SolveLevelOne(twice.observations, &twice.map);
   EXPECT_NEAR(a.energy, b.energy, 1e-9 * a.energy);
@@ -215,7 +215,7 @@ TEST(Levels, TakeMoreEnergiesByName) {
   // A second rotation term is as good as a larger weight of the first.
   LevelScene more;
   LevelScene heavier;
-  LevelsOptions exact = ExactLevels(2, SeamEdges::kKeep);
+  LevelsOptions exact = ThreeSteps(2, SeamEdges::kKeep);
   exact.energies = {{"rotation", 0.3, {}, {}}};
   MakeLevels(exact)->SolveLevelOne(more.observations, &more.map);
   exact.energies.clear();

@@ -1,0 +1,118 @@
+#include "ceres_ed/slam/tissue_memory.h"
+
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+constexpr int kNodes = 60;
+
+// Tissue that breathes: every node swings along its own direction, all in one phase.
+Eigen::Vector3d Breath(int node, double phase) {
+  return std::sin(phase) * Eigen::Vector3d(0.4, 0.3 * std::cos(node), 0.5 * std::sin(0.7 * node));
+}
+
+DeformableMap Row() {
+  DeformableMap map;
+  for (int j = 0; j < kNodes; ++j) {
+    const Eigen::Vector3d g(j, 0.0, 0.0);
+    map.AddNode(g, g, Eigen::Matrix3d::Identity());
+  }
+  return map;
+}
+
+void SetTo(double phase, const Eigen::Vector3d& drift, DeformableMap* map) {
+  for (int j = 0; j < kNodes; ++j) {
+    MutableNodeTranslation(map->mutable_state().node(j)) = Breath(j, phase) + drift;
+  }
+}
+
+// The first `count` nodes.
+std::vector<char> First(int count) {
+  std::vector<char> observed(kNodes, 0);
+  std::fill_n(observed.begin(), count, 1);
+  return observed;
+}
+
+double Phase(int frame) { return 2.0 * M_PI * frame / 24.0; }
+
+// One breath with everything in view.
+TissueMemory MemoryOfOneBreath(DeformableMap* map, const TissueMemoryOptions& options = {}) {
+  TissueMemory memory(options);
+  for (int frame = 0; frame < 24; ++frame) {
+    SetTo(Phase(frame), Eigen::Vector3d::Zero(), map);
+    memory.Keep(*map, First(kNodes));
+  }
+  return memory;
+}
+
+TEST(TissueMemory, RecallsTheHiddenAtTheSamePhase) {
+  DeformableMap map = Row();
+  const TissueMemory memory = MemoryOfOneBreath(&map);
+  for (const int frame : {25, 30, 36, 43}) {
+    SetTo(Phase(frame), Eigen::Vector3d::Zero(), &map);
+    const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+    for (int j = 40; j < kNodes; ++j) {
+      // A neighbouring frame differs by up to 0.07 and is like this one by exp(-0.5).
+      EXPECT_LT((recalled[j] - Breath(j, Phase(frame))).norm(), 0.05) << frame << " " << j;
+    }
+  }
+}
+
+TEST(TissueMemory, LeavesTheObservedWhereTheyAre) {
+  DeformableMap map = Row();
+  const TissueMemory memory = MemoryOfOneBreath(&map);
+  SetTo(0.3, {0.1, 0.2, 0.3}, &map);
+  const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+  for (int j = 0; j < 40; ++j) {
+    EXPECT_EQ(recalled[j], Breath(j, 0.3) + Eigen::Vector3d(0.1, 0.2, 0.3));
+  }
+}
+
+TEST(TissueMemory, CarriesACommonDriftOn) {
+  DeformableMap map = Row();
+  const TissueMemory memory = MemoryOfOneBreath(&map);
+  const Eigen::Vector3d drift(1.0, -2.0, 0.5);
+  SetTo(Phase(6), Eigen::Vector3d::Zero(), &map);
+  const std::vector<Eigen::Vector3d> still = memory.Recall(map, First(40));
+  SetTo(Phase(6), drift, &map);
+  const std::vector<Eigen::Vector3d> drifted = memory.Recall(map, First(40));
+  for (int j = 40; j < kNodes; ++j) EXPECT_LT((drifted[j] - still[j] - drift).norm(), 1e-12);
+}
+
+TEST(TissueMemory, GivesTheMeanWhereNothingInViewWasKept) {
+  DeformableMap map = Row();
+  TissueMemory memory({});
+  for (const double phase : {0.2, 0.6, 1.0}) {
+    SetTo(phase, Eigen::Vector3d::Zero(), &map);
+    // Only the last nodes, which are hidden later.
+    std::vector<char> observed(kNodes, 0);
+    observed[kNodes - 1] = 1;
+    memory.Keep(map, observed);
+  }
+  const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+  const Eigen::Vector3d mean =
+      (Breath(kNodes - 1, 0.2) + Breath(kNodes - 1, 0.6) + Breath(kNodes - 1, 1.0)) / 3.0;
+  EXPECT_LT((recalled[kNodes - 1] - mean).norm(), 1e-12);
+  // Never seen: where it is.
+  EXPECT_EQ(recalled[50], Breath(50, 1.0));
+}
+
+TEST(TissueMemory, ForgetsEverySecondMomentAndRecallsStill) {
+  DeformableMap map = Row();
+  TissueMemoryOptions few;
+  few.max_moments = 12;
+  const TissueMemory memory = MemoryOfOneBreath(&map, few);
+  for (const int frame : {26, 36, 42}) {
+    SetTo(Phase(frame), Eigen::Vector3d::Zero(), &map);
+    const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+    // Moments stand twice as far apart.
+    EXPECT_LT((recalled[kNodes - 1] - Breath(kNodes - 1, Phase(frame))).norm(), 0.1) << frame;
+  }
+}
+
+}  // namespace
+}  // namespace ceres_ed
