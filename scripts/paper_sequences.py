@@ -52,7 +52,7 @@ def run_scene(sequence, options, work):
                                     ("frame", "t_total", "t_level1", "t_level2", "nodes", "pr",
                                      "active", "updated_pi", "rms_plane")} for row in frames],
                         "errors": errors(evaluation, frames),
-                        "lost": sum(row["status"] == "lost" for row in rows)}
+                        "total": len(rows), "lost": sum(row["status"] == "lost" for row in rows)}
     return result
 
 
@@ -118,7 +118,8 @@ def growth_table(results):
                for key in ("t_total", "t_level1", "t_level2", "active", "pr", "nodes")}
         total = end["two_level", "t_total"] / end["batch", "t_total"]
         levels = end["two_level", "t_level1"] + end["two_level", "t_level2"]
-        rows.append([scene, str(len(result["batch"]["frames"]) + 1),
+        lost = [str(result[mode]["lost"]) for mode, _, _ in MODES]
+        rows.append([scene, str(result["batch"]["total"]), " / ".join(lost),
                      f"{end['two_level', 'nodes']:.0f}", f"{end['two_level', 'pr']:.0f}",
                      f"{end['two_level', 'active']:.0f}", f"{1e3 * end['batch', 't_total']:.0f}",
                      f"{1e3 * end['two_level', 't_total']:.0f}", f"{total:.2f}",
@@ -126,7 +127,7 @@ def growth_table(results):
                      f"{1e3 * end['two_level', 't_level1']:.0f} + "
                      f"{1e3 * end['two_level', 't_level2']:.0f}",
                      f"{levels / end['batch', 't_level1']:.2f}"])
-    return table(["sequence", "frames", "nodes", "PR", "level I", "batch ms", "two-level ms",
+    return table(["sequence", "frames", "lost", "nodes", "PR", "level I", "batch ms", "two-level ms",
                   "ratio", "batch solve ms", "levels I + II ms", "ratio"], rows)
 
 
