@@ -49,7 +49,7 @@ struct LevelsOptions {
   double rotation_weight = 0.1;
   double regularization_weight = 0.1;
   // Of nodes to where they are thought to be: holds what nobody sees.
-  double node_prior_weight = 0.01;
+  double node_prior_weight = 0.02;
   double plane_weight = 1.0;
   // Of one feature against one plane.
   double feature_weight = 4.0;

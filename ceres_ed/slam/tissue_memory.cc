@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Eigen/SVD>
 #include <cost_functions/node_parameters.h>
 
 namespace ceres_ed {
@@ -11,13 +12,53 @@ namespace {
 
 // Weight of a moment that isn't like the present at all: what is left is the mean.
 constexpr double kLeastLikeness = 1e-6;
+// Mean square distance from a line, squared map units, from which on nodes tell a turn.
+constexpr double kLeastExtent = 1.0;
 
-// How a moment compares with the present.
+// Sums over the nodes that are in view now and were at a moment: places then (p) and now (q).
 struct Comparison {
   int common = 0;
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  Eigen::Vector3d q = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d qp = Eigen::Matrix3d::Zero();
   double squares = 0.0;
+
+  void Add(const Eigen::Vector3d& then, const Eigen::Vector3d& now) {
+    ++common;
+    p += then;
+    q += now;
+    qp += now * then.transpose();
+    squares += then.squaredNorm() + now.squaredNorm();
+  }
 };
+
+// A moment laid on the present: q = rotation p + translation, as well as a rigid motion can.
+struct Alignment {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
+  // Mean of |q - rotation p - translation|^2: how unlike they are.
+  double difference = 0.0;
+};
+
+Alignment Align(const Comparison& c) {
+  Alignment alignment;
+  if (c.common == 0) return alignment;
+  const double n = c.common;
+  const Eigen::Matrix3d covariance = c.qp - c.q * c.p.transpose() / n;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs.z() = -1.0;
+  // Few nodes, or nodes in a line, say nothing of a turn.
+  if (svd.singularValues()[1] > kLeastExtent * n) {
+    alignment.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  }
+  alignment.translation = (c.q - alignment.rotation * c.p) / n;
+  const double spread = c.squares - (c.p.squaredNorm() + c.q.squaredNorm()) / n;
+  const double explained = (alignment.rotation.transpose() * covariance).trace();
+  alignment.difference = std::max(0.0, (spread - 2.0 * explained) / n);
+  return alignment;
+}
 
 }  // namespace
 
@@ -44,48 +85,51 @@ void TissueMemory::Thin() {
 std::vector<Eigen::Vector3d> TissueMemory::Recall(const DeformableMap& map,
                                                   const std::vector<char>& observed) const {
   const int num_nodes = map.graph().num_nodes();
+  const auto is_observed = [&observed](int j) {
+    return j < static_cast<int>(observed.size()) && observed[j] != 0;
+  };
+  const auto place = [&map](int j, const Eigen::Vector3d& translation) -> Eigen::Vector3d {
+    return map.graph().position(j) + translation;
+  };
   std::vector<Eigen::Vector3d> recalled(num_nodes);
   // By moment / stride.
   std::vector<Comparison> comparisons(next_moment_ / stride_ + 1);
   for (int j = 0; j < num_nodes; ++j) {
     recalled[j] = NodeTranslation(map.state().node(j));
-    const bool seen = j < static_cast<int>(observed.size()) && observed[j] != 0;
-    if (!seen || j >= static_cast<int>(traces_.size())) continue;
+    if (!is_observed(j) || j >= static_cast<int>(traces_.size())) continue;
     for (const Trace& trace : traces_[j]) {
-      Comparison& c = comparisons[trace.moment / stride_];
-      const Eigen::Vector3d difference = recalled[j] - trace.translation;
-      ++c.common;
-      c.sum += difference;
-      c.squares += difference.squaredNorm();
+      comparisons[trace.moment / stride_].Add(place(j, trace.translation), place(j, recalled[j]));
     }
   }
-  // Likeness and common translation of each moment.
-  std::vector<double> likeness(comparisons.size(), kLeastLikeness);
+  double width = options_.likeness * options_.likeness;
+  std::vector<Alignment> alignments;
   double nearest = std::numeric_limits<double>::infinity();
-  for (Comparison& c : comparisons) {
-    if (c.common == 0) continue;
-    c.sum /= c.common;
-    c.squares = std::max(0.0, c.squares / c.common - c.sum.squaredNorm());
-    if (c.common >= options_.min_common) nearest = std::min(nearest, c.squares);
+  for (const Comparison& c : comparisons) {
+    alignments.push_back(Align(c));
+    if (c.common >= options_.min_common) {
+      nearest = std::min(nearest, alignments.back().difference);
+    }
   }
-  const double width = std::max(nearest, options_.likeness * options_.likeness);
+  if (std::isfinite(nearest)) width = std::max(width, nearest);
+  std::vector<double> likeness(comparisons.size(), kLeastLikeness);
   for (std::size_t k = 0; k < comparisons.size(); ++k) {
-    const Comparison& c = comparisons[k];
-    if (c.common == 0 || !std::isfinite(width)) continue;
-    const double share = std::min(1.0, c.common / static_cast<double>(options_.min_common));
-    likeness[k] += share * std::exp(-0.5 * c.squares / width);
+    if (comparisons[k].common == 0) continue;
+    const double share =
+        std::min(1.0, comparisons[k].common / static_cast<double>(options_.min_common));
+    likeness[k] += share * std::exp(-0.5 * alignments[k].difference / width);
   }
   for (int j = 0; j < static_cast<int>(traces_.size()); ++j) {
-    const bool seen = j < static_cast<int>(observed.size()) && observed[j] != 0;
-    if (seen || traces_[j].empty()) continue;
+    if (is_observed(j) || traces_[j].empty()) continue;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double total = 0.0;
     for (const Trace& trace : traces_[j]) {
-      const int k = trace.moment / stride_;
-      sum += likeness[k] * (trace.translation + comparisons[k].sum);
-      total += likeness[k];
+      const Alignment& now_from_then = alignments[trace.moment / stride_];
+      const double weight = likeness[trace.moment / stride_];
+      sum += weight *
+             (now_from_then.rotation * place(j, trace.translation) + now_from_then.translation);
+      total += weight;
     }
-    recalled[j] = sum / total;
+    recalled[j] = sum / total - map.graph().position(j);
   }
   return recalled;
 }

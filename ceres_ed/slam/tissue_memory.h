@@ -23,7 +23,7 @@ struct TissueMemoryOptions {
 
 // Breathing and heartbeat bring tissue back to where it was. The places of observed nodes are kept
 // moment by moment; hidden ones are recalled as they were when what is in view looked as it does
-// now, up to a common translation, which is the gauge of map and camera.
+// now, up to a common rigid motion, which is the gauge of map and camera.
 class TissueMemory {
  public:
   explicit TissueMemory(const TissueMemoryOptions& options) : options_(options) {}

@@ -18,7 +18,8 @@ Eigen::Vector3d Breath(int node, double phase) {
 DeformableMap Row() {
   DeformableMap map;
   for (int j = 0; j < kNodes; ++j) {
-    const Eigen::Vector3d g(j, 0.0, 0.0);
+    // Not in a line, so that a turn shows.
+    const Eigen::Vector3d g(j, 3.0 * (j % 3), 2.0 * (j % 5));
     map.AddNode(g, g, Eigen::Matrix3d::Identity());
   }
   return map;
@@ -72,15 +73,24 @@ TEST(TissueMemory, LeavesTheObservedWhereTheyAre) {
   }
 }
 
-TEST(TissueMemory, CarriesACommonDriftOn) {
+// The gauge: what the nodes move as one body, the camera gives back.
+TEST(TissueMemory, CarriesACommonMotionOn) {
   DeformableMap map = Row();
   const TissueMemory memory = MemoryOfOneBreath(&map);
-  const Eigen::Vector3d drift(1.0, -2.0, 0.5);
+  const Eigen::Quaterniond turn(
+      Eigen::AngleAxisd(0.3, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()));
+  const Eigen::Vector3d shift(1.0, -2.0, 0.5);
   SetTo(Phase(6), Eigen::Vector3d::Zero(), &map);
   const std::vector<Eigen::Vector3d> still = memory.Recall(map, First(40));
-  SetTo(Phase(6), drift, &map);
-  const std::vector<Eigen::Vector3d> drifted = memory.Recall(map, First(40));
-  for (int j = 40; j < kNodes; ++j) EXPECT_LT((drifted[j] - still[j] - drift).norm(), 1e-12);
+  for (int j = 0; j < kNodes; ++j) {
+    const Eigen::Vector3d moved = turn * map.NodePosition(j) + shift;
+    MutableNodeTranslation(map.mutable_state().node(j)) = moved - map.graph().position(j);
+  }
+  const std::vector<Eigen::Vector3d> carried = memory.Recall(map, First(40));
+  for (int j = 40; j < kNodes; ++j) {
+    const Eigen::Vector3d g = map.graph().position(j);
+    EXPECT_LT((g + carried[j] - (turn * (g + still[j]) + shift)).norm(), 1e-9);
+  }
 }
 
 TEST(TissueMemory, GivesTheMeanWhereNothingInViewWasKept) {
