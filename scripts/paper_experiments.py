@@ -8,8 +8,8 @@
      |z - depth| at the pixel), of map points in view to the true surface, and of tracking errors,
      with what two-level loses against batch in percent
   c  a plane that is warped under a still camera, which then sees half of it (paper_plane.png);
-     "level I" are the nodes that it moves, "to batch" the mean distance of all points to where
-     batch has them
+     "level I" are the nodes that it moves, seen and hidden the mean distance of points to where
+     their tissue is, by the mask, "to batch" that to where batch has them
   d  a dolphin bent by handles alone (paper_dolphin.png), distances in percent of its diagonal
 
 Two-level runs as by default (2 rings, keep) in a and b. Writes the pictures, tables.md and
