@@ -1,12 +1,14 @@
 #include "ceres_ed/io/image_io.h"
 
 #include <ceres_ed/io/atomic_file.h>
+#include <ceres_ed/io/text.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -16,9 +18,15 @@ namespace ceres_ed {
 namespace {
 
 StatusOr<cv::Mat> Decode(const std::string& path, int flags) {
+  // Read first: OpenCV says nothing of why a file can't be opened, but on stderr.
+  const StatusOr<std::string> bytes = ReadWholeFile(path);
+  if (!bytes.ok()) return bytes.status();
+  if (bytes->empty()) return Status::Error(path + ": empty, expected a PNG or JPEG");
+  const cv::Mat encoded(
+      1, static_cast<int>(bytes->size()), CV_8UC1, const_cast<char*>(bytes->data()));
   cv::Mat image;
   try {
-    image = cv::imread(path, flags);
+    image = cv::imdecode(encoded, flags);
   } catch (const std::exception& error) {
     return Status::Error(path + ": can't be decoded: " + error.what());
   }
