@@ -5,33 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <utility>
-
-#include <Eigen/LU>
 
 namespace ceres_ed {
 namespace {
 
-constexpr double kInlierWidth = 3.0;
-// A frame is done when a round takes less than this share off the energy.
-constexpr int kLeastRounds = 2;
-constexpr double kSmallGain = 0.1;
 // A pose found from scratch replaces a tracked one whose score it beats by this factor.
 constexpr double kClearlyBetter = 1.2;
 constexpr double kLeastOfBefore = 0.4;
 
 CameraPose Compose(const CameraPose& a, const CameraPose& b) {
-  CameraPose pose;
-  pose.rotation = (a.rotation * b.rotation).normalized();
-  pose.translation = a.rotation * b.translation + a.translation;
-  return pose;
+  return {(a.rotation * b.rotation).normalized(), a.rotation * b.translation + a.translation};
 }
 
 CameraPose Inverse(const CameraPose& pose) {
-  CameraPose inverse;
-  inverse.rotation = pose.rotation.conjugate();
-  inverse.translation = -(inverse.rotation * pose.translation);
-  return inverse;
+  const Eigen::Quaterniond back = pose.rotation.conjugate();
+  return {back, -(back * pose.translation)};
 }
 
 double VisibleArea(const ObservedSurface& surface) {
@@ -66,6 +56,33 @@ std::string FrameStatusName(FrameStatus status) {
   return "skipped";
 }
 
+bool SlamOptions::IsValid(std::string* error) const {
+  const auto require = [error](bool holds, const char* option, double value, const char* expected) {
+    if (holds) return true;
+    std::ostringstream message;
+    message << option << " is " << value << ", expected " << expected;
+    *error = message.str();
+    return false;
+  };
+  return require(rings >= 0, "rings", rings, ">= 0") &&
+         require(node_spacing >= 0.0 && std::isfinite(node_spacing),
+                 "node_spacing",
+                 node_spacing,
+                 "metres >= 0") &&
+         require(nodes_in_view >= 4, "nodes_in_view", nodes_in_view, ">= 4") &&
+         require(neighbors >= 1 && neighbors <= kMaxBoundNodes, "neighbors", neighbors, "1 to 8") &&
+         require(rounds >= 1, "rounds", rounds, ">= 1") &&
+         require(max_observations >= 100, "max_observations", max_observations, ">= 100") &&
+         require(max_point_weight >= 1.0, "max_point_weight", max_point_weight, ">= 1") &&
+         require(num_threads >= 1, "num_threads", num_threads, ">= 1") &&
+         require(surface.cell >= 1, "surface.cell", surface.cell, ">= 1") &&
+         require(surface.radius >= 1, "surface.radius", surface.radius, ">= 1") &&
+         require(growth.point_spacing > 0.0, "growth.point_spacing", growth.point_spacing, "> 0") &&
+         require(growth.node_coverage > 0.0, "growth.node_coverage", growth.node_coverage, "> 0") &&
+         require(feature.count >= 0, "feature.count", feature.count, ">= 0") &&
+         levels.solver.IsValid(error);
+}
+
 DeformableSlam::DeformableSlam(const PinholeCamera& camera, const SlamOptions& options)
     : camera_(camera),
       options_(options),
@@ -78,6 +95,7 @@ StatusOr<std::unique_ptr<DeformableSlam>> DeformableSlam::Create(const PinholeCa
                                                                  const EnergyRegistry& registry) {
   std::string error;
   if (!camera.IsValid(&error)) return Status::Error("camera: " + error);
+  if (!options.IsValid(&error)) return Status::Error(error);
   std::unique_ptr<DeformableSlam> slam(new DeformableSlam(camera, options));
   LevelsOptions levels = options.levels;
   levels.rings = options.mode == SolveMode::kBatch ? -1 : options.rings;
@@ -203,120 +221,6 @@ bool DeformableSlam::Confirm(const ObservedSurface& surface,
     return true;
   }
   return judge.Believes(quality);
-}
-
-FrameObservations DeformableSlam::Observe(const AssociationResult& association) const {
-  FrameObservations observations;
-  const std::size_t count = association.matches.size();
-  const std::size_t kept = std::min<std::size_t>(count, options_.max_observations);
-  for (std::size_t k = 0; k < kept; ++k) {
-    const Association& match = association.matches[k * count / kept];
-    const VisiblePoint& point = visible_[match.visible];
-    MapObservation o;
-    o.position = map_.point(point.slot).position;
-    o.binding = map_.binding(point.slot);
-    o.target = match.patch->point;
-    o.normal = match.patch->normal;
-    o.weight = match.weight;
-    observations.planes.push_back(o);
-  }
-  return observations;
-}
-
-void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* report) {
-  Timer timer;
-  const double noise = std::max(surface.noise(), 1e-4);
-  map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
-  for (int round = 0; round < options_.rounds; ++round) {
-    const CameraPose& pose = map_.state().camera_from_map;
-    const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
-    FrameObservations observations = Observe(association);
-    observations.plane_width = 5.0 * std::max(association.deviation, noise);
-    observations.features = features_.Observations();
-    std::vector<double> distances;
-    for (const PointMatch& m : features_.Matches(map_)) {
-      distances.push_back((pose * m.in_map - m.in_camera).norm());
-    }
-    observations.feature_width = 5.0 * std::max(MedianDeviation(distances), noise);
-    report->times.associate += timer.Restart();
-    const LevelReport level = levels_->SolveLevelOne(observations, &map_);
-    report->point_relevant = level.point_relevant;
-    report->active = level.variable_nodes;
-    report->energy = level.energy;
-    report->iterations += level.iterations;
-    report->times.level1 += timer.Restart();
-    UpdateVisible(map_, map_.state().camera_from_map, camera_, &visible_);
-    report->times.warp += timer.Restart();
-    const double gain = level.initial_energy - level.energy;
-    if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
-  }
-  if (options_.mode != SolveMode::kBatch) {
-    map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
-    const LevelReport level = levels_->SolveLevelTwo(&map_);
-    report->updated_pi = level.variable_nodes;
-    report->times.level2 += timer.Restart();
-    UpdateVisible(map_, map_.state().camera_from_map, camera_, &visible_);
-    report->times.warp += timer.Restart();
-  }
-  memory_.Keep(map_, levels_->point_relevant());
-  features_.DropOutliers(map_, noise);
-  const AssociationResult association =
-      Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());
-  double squares = 0.0;
-  for (const Association& m : association.matches) {
-    if (std::abs(m.distance) > kInlierWidth * std::max(association.deviation, noise)) continue;
-    ++report->inliers;
-    squares += m.distance * m.distance;
-  }
-  report->points = static_cast<int>(association.matches.size());
-  points_before_ = report->points;
-  report->rms_plane = std::sqrt(squares / std::max(1, report->inliers)) * unit_;
-  report->features = features_.size();
-  report->times.associate += timer.Restart();
-}
-
-void DeformableSlam::Fuse(const ObservedSurface& surface) {
-  const CameraPose& pose = map_.state().camera_from_map;
-  const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
-  const double width = kInlierWidth * std::max(association.deviation, surface.noise());
-  for (const Association& m : association.matches) {
-    if (std::abs(m.distance) > width) continue;
-    const int slot = visible_[m.visible].slot;
-    MapPoint& point = map_.mutable_point(slot);
-    const LocalWarp warp = map_.WarpOf(map_.binding(slot));
-    const double share = m.weight / (point.weight + m.weight);
-    // Along the normal alone: back-projection knows nothing of where along the surface.
-    const Eigen::Vector3d correction = pose.rotation.conjugate() * (-m.distance * m.patch->normal);
-    point.position += share * (warp.gradient.inverse() * correction);
-    const Eigen::Vector3d normal =
-        warp.gradient.transpose() * (pose.rotation.conjugate() * m.patch->normal);
-    point.normal = ((1.0 - share) * point.normal + share * normal.normalized()).normalized();
-    point.weight = std::min(point.weight + m.weight, options_.max_point_weight);
-    point.contradictions = std::max(0, point.contradictions - 1);
-  }
-  for (const int i : association.seen_through) {
-    if (++map_.mutable_point(visible_[i].slot).contradictions < 5) continue;
-    map_.RemovePoint(visible_[i].slot);
-    visible_[i].slot = -1;
-  }
-  const auto gone = [](const VisiblePoint& point) { return point.slot < 0; };
-  visible_.erase(std::remove_if(visible_.begin(), visible_.end(), gone), visible_.end());
-}
-
-void DeformableSlam::Grow(const SlamFrame& frame,
-                          const ObservedSurface& surface,
-                          FrameReport* report) {
-  Timer timer;
-  static const ColorImage kNoColor;
-  const bool color = frame.color != nullptr && !frame.color->empty();
-  GrowMap(visible_, surface, color ? *frame.color : kNoColor, frame.number, options_.growth, &map_);
-  report->times.grow += timer.Restart();
-  if (!color || !options_.features) return;
-  if (report->status == FrameStatus::kInitialized) {
-    features_.Track(*frame.color, surface, map_, map_.state().camera_from_map);
-  }
-  features_.Replenish(surface, map_);
-  report->times.features += timer.Restart();
 }
 
 }  // namespace ceres_ed

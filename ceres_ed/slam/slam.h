@@ -58,6 +58,9 @@ struct SlamOptions {
   FeatureOptions feature;
   MapGrowthOptions growth;
   ObservedSurfaceOptions surface;
+
+  // False, with the option and what was expected in `error`, when a value is out of range.
+  bool IsValid(std::string* error) const;
 };
 
 // One frame as it comes from a sensor. Lengths in metres.
@@ -155,6 +158,8 @@ class DeformableSlam {
                CameraPose* pose,
                FrameReport* report);
   void FollowTissue(const ObservedSurface& surface, FrameReport* report);
+  double FeatureDeviation() const;
+  void Measure(const ObservedSurface& surface, FrameReport* report);
   void Fuse(const ObservedSurface& surface);
   void Grow(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
   FrameObservations Observe(const AssociationResult& association) const;

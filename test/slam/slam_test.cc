@@ -213,5 +213,22 @@ TEST(FrameStatusName, IsOneWordForEach) {
   EXPECT_EQ(FrameStatusName(FrameStatus::kSkipped), "skipped");
 }
 
+TEST(SlamOptions, NameWhatIsOutOfRange) {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  SlamOptions options;
+  options.rings = -1;
+  EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
+            "rings is -1, expected >= 0");
+  options = SlamOptions();
+  options.neighbors = 9;
+  EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
+            "neighbors is 9, expected 1 to 8");
+  PinholeCamera blind = KidneySequence().camera;
+  blind.fx = 0.0;
+  EXPECT_EQ(DeformableSlam::Create(blind, SlamOptions(), registry).status().message(),
+            "camera: fx is 0, expected a focal length > 0 pixels");
+}
+
 }  // namespace
 }  // namespace ceres_ed

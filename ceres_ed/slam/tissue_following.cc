@@ -1,0 +1,153 @@
+// What a frame does to the map once the camera is found: Level I and II, fusion, growth.
+#include <ceres_ed/slam/association.h>
+#include <ceres_ed/slam/slam.h>
+#include <ceres_ed/util/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/LU>
+
+namespace ceres_ed {
+namespace {
+
+// In deviations: what still is an inlier, and where losses give way.
+constexpr double kInlierWidth = 3.0;
+constexpr double kLossWidth = 5.0;
+// No sensor is better than this, map units.
+constexpr double kLeastNoise = 1e-4;
+// A frame is done when a round takes less than this share off the energy.
+constexpr int kLeastRounds = 2;
+constexpr double kSmallGain = 0.1;
+// Frames in which a point is seen through, until it goes.
+constexpr int kMaxContradictions = 5;
+
+}  // namespace
+
+FrameObservations DeformableSlam::Observe(const AssociationResult& association) const {
+  FrameObservations observations;
+  const std::size_t count = association.matches.size();
+  const std::size_t kept = std::min<std::size_t>(count, options_.max_observations);
+  for (std::size_t k = 0; k < kept; ++k) {
+    const Association& match = association.matches[k * count / kept];
+    const VisiblePoint& point = visible_[match.visible];
+    MapObservation o;
+    o.position = map_.point(point.slot).position;
+    o.binding = map_.binding(point.slot);
+    o.target = match.patch->point;
+    o.normal = match.patch->normal;
+    o.weight = match.weight;
+    observations.planes.push_back(o);
+  }
+  return observations;
+}
+
+double DeformableSlam::FeatureDeviation() const {
+  const CameraPose& pose = map_.state().camera_from_map;
+  std::vector<double> distances;
+  for (const PointMatch& m : features_.Matches(map_)) {
+    distances.push_back((pose * m.in_map - m.in_camera).norm());
+  }
+  return MedianDeviation(std::move(distances));
+}
+
+void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* report) {
+  Timer timer;
+  const CameraPose& pose = map_.state().camera_from_map;
+  const double noise = std::max(surface.noise(), kLeastNoise);
+  map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
+  for (int round = 0; round < options_.rounds; ++round) {
+    const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
+    FrameObservations observations = Observe(association);
+    observations.plane_width = kLossWidth * std::max(association.deviation, noise);
+    observations.features = features_.Observations();
+    observations.feature_width = kLossWidth * std::max(FeatureDeviation(), noise);
+    report->times.associate += timer.Restart();
+    const LevelReport level = levels_->SolveLevelOne(observations, &map_);
+    report->point_relevant = level.point_relevant;
+    report->active = level.variable_nodes;
+    report->energy = level.energy;
+    report->iterations += level.iterations;
+    report->times.level1 += timer.Restart();
+    UpdateVisible(map_, pose, camera_, &visible_);
+    report->times.warp += timer.Restart();
+    const double gain = level.initial_energy - level.energy;
+    if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
+  }
+  if (options_.mode != SolveMode::kBatch) {
+    map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
+    report->updated_pi = levels_->SolveLevelTwo(&map_).variable_nodes;
+    report->times.level2 += timer.Restart();
+    UpdateVisible(map_, pose, camera_, &visible_);
+    report->times.warp += timer.Restart();
+  }
+  memory_.Keep(map_, levels_->point_relevant());
+  features_.DropOutliers(map_, noise);
+  Measure(surface, report);
+  report->times.associate += timer.Restart();
+}
+
+// How well the map lies on the surface, now that it has been deformed.
+void DeformableSlam::Measure(const ObservedSurface& surface, FrameReport* report) {
+  const AssociationResult association =
+      Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());
+  const double width =
+      kInlierWidth * std::max({association.deviation, surface.noise(), kLeastNoise});
+  double squares = 0.0;
+  for (const Association& m : association.matches) {
+    if (std::abs(m.distance) > width) continue;
+    ++report->inliers;
+    squares += m.distance * m.distance;
+  }
+  report->points = static_cast<int>(association.matches.size());
+  points_before_ = report->points;
+  report->rms_plane = std::sqrt(squares / std::max(1, report->inliers)) * unit_;
+  report->features = features_.size();
+}
+
+void DeformableSlam::Fuse(const ObservedSurface& surface) {
+  const CameraPose& pose = map_.state().camera_from_map;
+  const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
+  const double width = kInlierWidth * std::max(association.deviation, surface.noise());
+  for (const Association& m : association.matches) {
+    if (std::abs(m.distance) > width) continue;
+    const int slot = visible_[m.visible].slot;
+    MapPoint& point = map_.mutable_point(slot);
+    const LocalWarp warp = map_.WarpOf(map_.binding(slot));
+    const double share = m.weight / (point.weight + m.weight);
+    // Along the normal alone: back-projection knows nothing of where along the surface.
+    const Eigen::Vector3d correction = pose.rotation.conjugate() * (-m.distance * m.patch->normal);
+    point.position += share * (warp.gradient.inverse() * correction);
+    const Eigen::Vector3d normal =
+        warp.gradient.transpose() * (pose.rotation.conjugate() * m.patch->normal);
+    point.normal = ((1.0 - share) * point.normal + share * normal.normalized()).normalized();
+    point.weight = std::min(point.weight + m.weight, options_.max_point_weight);
+    point.contradictions = std::max(0, point.contradictions - 1);
+  }
+  for (const int i : association.seen_through) {
+    if (++map_.mutable_point(visible_[i].slot).contradictions < kMaxContradictions) continue;
+    map_.RemovePoint(visible_[i].slot);
+    visible_[i].slot = -1;
+  }
+  const auto gone = [](const VisiblePoint& point) { return point.slot < 0; };
+  visible_.erase(std::remove_if(visible_.begin(), visible_.end(), gone), visible_.end());
+}
+
+void DeformableSlam::Grow(const SlamFrame& frame,
+                          const ObservedSurface& surface,
+                          FrameReport* report) {
+  Timer timer;
+  static const ColorImage kNoColor;
+  const bool color = frame.color != nullptr && !frame.color->empty();
+  GrowMap(visible_, surface, color ? *frame.color : kNoColor, frame.number, options_.growth, &map_);
+  report->times.grow += timer.Restart();
+  if (!color || !options_.features) return;
+  if (report->status == FrameStatus::kInitialized) {
+    features_.Track(*frame.color, surface, map_, map_.state().camera_from_map);
+  }
+  features_.Replenish(surface, map_);
+  report->times.features += timer.Restart();
+}
+
+}  // namespace ceres_ed
