@@ -60,7 +60,8 @@ int Wait(pid_t child, const RunOptions& options, bool* timed_out) {
   bool signal_pending = options.signal != 0;
   int status = 0;
   while (waitpid(child, &status, WNOHANG) == 0) {
-    if (signal_pending && elapsed() >= options.signal_after_s) {
+    if (signal_pending && elapsed() >= options.signal_after_s &&
+        (!options.signal_when || options.signal_when())) {
       kill(child, options.signal);
       signal_pending = false;
     }

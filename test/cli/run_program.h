@@ -2,6 +2,7 @@
 #ifndef CERES_ED_TEST_CLI_RUN_PROGRAM_H_
 #define CERES_ED_TEST_CLI_RUN_PROGRAM_H_
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -22,8 +23,10 @@ struct RunOptions {
   double timeout_s = 120.0;
   // Sends this signal...
   int signal = 0;
-  // ...this long after the start.
+  // ...this long after the start...
   double signal_after_s = 0.0;
+  // ...and not before this holds, where it is given. Asked every few milliseconds.
+  std::function<bool()> signal_when;
   // Empty: that of the test.
   std::string working_directory;
 };
