@@ -151,7 +151,6 @@ void FeaturePoints::Exchange(CheckpointArchive* archive) {
   archive->Column(
       "weights", &features_, [](Feature & f) -> auto& { return f.weights; });
   archive->Column("num_nodes", &features_, [](Feature& f) -> int& { return f.num_nodes; });
-  archive->Column("age", &features_, [](Feature& f) -> int& { return f.age; });
   archive->Leave();
 }
 

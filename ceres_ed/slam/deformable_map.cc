@@ -3,10 +3,20 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/LU>
 #include <cost_functions/node_parameters.h>
 #include <glog/logging.h>
 
 namespace ceres_ed {
+
+bool LocalWarp::IsInvertible() const {
+  constexpr double kMinDeterminant = 0.1;
+  return gradient.determinant() > kMinDeterminant;
+}
+
+Eigen::Vector3d LocalWarp::AtRest(const Eigen::Vector3d& now) const {
+  return gradient.inverse() * (now - offset);
+}
 
 int DeformableMap::AddNode(const Eigen::Vector3d& at_rest,
                            const Eigen::Vector3d& now,

@@ -42,6 +42,10 @@ struct LocalWarp {
   Eigen::Vector3d operator*(const Eigen::Vector3d& at_rest) const {
     return gradient * at_rest + offset;
   }
+  // Whether it is far enough from folding to be undone.
+  bool IsInvertible() const;
+  // Where a point that is at `now` is at rest. Only of an invertible one.
+  Eigen::Vector3d AtRest(const Eigen::Vector3d& now) const;
 };
 
 // Points and nodes, both with stable indices. A point belongs to its strongest node, so that what a

@@ -5,14 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/LU>
-
 namespace ceres_ed {
 namespace {
 
 // Corners are looked for again when fewer than this share of those wanted are left.
 constexpr double kReplenishBelow = 0.8;
-constexpr double kMinDeterminant = 0.1;
 
 // Where the ray of a pixel meets its patch's plane; false where there is none.
 bool OnSurface(const ObservedSurface& surface,
@@ -47,7 +44,6 @@ void FeaturePoints::Track(const ColorImage& image,
     Feature f = features_[k];
     f.pixel = tracked[k].pixel;
     if (!tracked[k].found || !OnSurface(surface, f.pixel, &f.in_camera)) continue;
-    ++f.age;
     kept.push_back(f);
   }
   features_ = std::move(kept);
@@ -109,8 +105,8 @@ void FeaturePoints::Replenish(const ObservedSurface& surface, const DeformableMa
     if (binder.DistanceTo(place) > 1.5) continue;
     const Binding binding = binder.Bind(place, map.neighbors());
     const LocalWarp warp = map.WarpOf(binding);
-    if (!(warp.gradient.determinant() > kMinDeterminant)) continue;
-    f.at_rest = warp.gradient.inverse() * (place - warp.offset);
+    if (!warp.IsInvertible()) continue;
+    f.at_rest = warp.AtRest(place);
     f.num_nodes = binding.size;
     std::copy_n(binding.nodes, binding.size, f.nodes);
     std::copy_n(binding.weights, binding.size, f.weights);

@@ -66,7 +66,6 @@ class FeaturePoints {
     int nodes[kMaxBoundNodes];
     double weights[kMaxBoundNodes];
     int num_nodes = 0;
-    int age = 0;
 
     Binding binding() const { return {nodes, weights, num_nodes}; }
   };

@@ -68,7 +68,7 @@ struct LevelsOptions {
   std::vector<EnergySpec> energies;
 };
 
-// What a level did; times in seconds.
+// What a level did.
 struct LevelReport {
   SolveStatus status = SolveStatus::kConverged;
   int variable_nodes = 0;

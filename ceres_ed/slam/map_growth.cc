@@ -7,8 +7,6 @@
 #include <limits>
 #include <utility>
 
-#include <Eigen/LU>
-
 namespace ceres_ed {
 namespace {
 
@@ -17,8 +15,6 @@ constexpr double kReach = 3.0;
 // Edges don't span more than this, unless a node would have none.
 constexpr double kLongestEdge = 2.5;
 constexpr int kFewestEdges = 3;
-// A blend of affine maps with a smaller determinant is no place to start from.
-constexpr double kMinDeterminant = 0.1;
 
 // A patch that the map lacks.
 struct Candidate {
@@ -96,13 +92,12 @@ void AddNodeAt(const Eigen::Vector3d& place,
   if (!binder->empty()) {
     partners = binder->Nearest(place, options.edges_per_node);
     warp = map->WarpOf(binder->Bind(place, map->neighbors()));
-    if (!(warp.gradient.determinant() > kMinDeterminant)) {
+    if (!warp.IsInvertible()) {
       warp.gradient.setIdentity();
       warp.offset = map->NodePosition(partners[0]) - map->graph().position(partners[0]);
     }
   }
-  const Eigen::Vector3d at_rest = warp.gradient.inverse() * (place - warp.offset);
-  const int node = map->AddNode(at_rest, place, warp.gradient);
+  const int node = map->AddNode(warp.AtRest(place), place, warp.gradient);
   for (int k = 0; k < static_cast<int>(partners.size()); ++k) {
     const double length = (map->NodePosition(partners[k]) - place).norm();
     if (k >= kFewestEdges && length > kLongestEdge) break;
@@ -120,8 +115,8 @@ bool PlacePoint(const DeformableMap& map,
                 const Eigen::Vector3d& normal,
                 MapPoint* point) {
   const LocalWarp warp = map.WarpOf(binding);
-  if (!(warp.gradient.determinant() > kMinDeterminant)) return false;
-  point->position = warp.gradient.inverse() * (place - warp.offset);
+  if (!warp.IsInvertible()) return false;
+  point->position = warp.AtRest(place);
   // Normals turn by the cofactors of the gradient, G^-T up to length; back by G^T.
   point->normal = (warp.gradient.transpose() * normal).normalized();
   return true;

@@ -123,7 +123,6 @@ FrameReport DeformableSlam::Process(const SlamFrame& frame) {
     report.status = FrameStatus::kInitialized;
   } else if (FindCamera(frame, surface, &report)) {
     FollowTissue(surface, &report);
-    Fuse(surface);
   } else {
     report.nodes = map_.graph().num_nodes();
     report.map_points = map_.num_points();

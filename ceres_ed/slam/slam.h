@@ -159,8 +159,8 @@ class DeformableSlam {
                FrameReport* report);
   void FollowTissue(const ObservedSurface& surface, FrameReport* report);
   double FeatureDeviation() const;
-  void Measure(const ObservedSurface& surface, FrameReport* report);
-  void Fuse(const ObservedSurface& surface);
+  void Measure(const AssociationResult& association, double noise, FrameReport* report);
+  void Fuse(const AssociationResult& association, double noise);
   void Grow(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
   FrameObservations Observe(const AssociationResult& association) const;
 

@@ -84,16 +84,18 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* r
   }
   memory_.Keep(map_, levels_->point_relevant());
   features_.DropOutliers(map_, noise);
-  Measure(surface, report);
+  const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
+  Measure(association, noise, report);
   report->times.associate += timer.Restart();
+  Fuse(association, surface.noise());
+  report->times.warp += timer.Restart();
 }
 
 // How well the map lies on the surface, now that it has been deformed.
-void DeformableSlam::Measure(const ObservedSurface& surface, FrameReport* report) {
-  const AssociationResult association =
-      Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());
-  const double width =
-      kInlierWidth * std::max({association.deviation, surface.noise(), kLeastNoise});
+void DeformableSlam::Measure(const AssociationResult& association,
+                             double noise,
+                             FrameReport* report) {
+  const double width = kInlierWidth * std::max(association.deviation, noise);
   double squares = 0.0;
   for (const Association& m : association.matches) {
     if (std::abs(m.distance) > width) continue;
@@ -106,10 +108,9 @@ void DeformableSlam::Measure(const ObservedSurface& surface, FrameReport* report
   report->features = features_.size();
 }
 
-void DeformableSlam::Fuse(const ObservedSurface& surface) {
+void DeformableSlam::Fuse(const AssociationResult& association, double noise) {
   const CameraPose& pose = map_.state().camera_from_map;
-  const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
-  const double width = kInlierWidth * std::max(association.deviation, surface.noise());
+  const double width = kInlierWidth * std::max(association.deviation, noise);
   for (const Association& m : association.matches) {
     if (std::abs(m.distance) > width) continue;
     const int slot = visible_[m.visible].slot;

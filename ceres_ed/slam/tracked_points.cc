@@ -10,13 +10,8 @@
 #include <limits>
 #include <string>
 
-#include <Eigen/LU>
-
 namespace ceres_ed {
 namespace {
-
-// A blend of affine maps with a smaller determinant has no inverse worth having.
-constexpr double kMinDeterminant = 0.1;
 
 const VisiblePoint* FindNearest(const std::vector<VisiblePoint>& visible,
                                 const Eigen::Vector3d& in_camera,
@@ -116,13 +111,13 @@ StatusOr<TrackedPoints> TrackedPoints::Bind(const std::vector<NamedPoint>& point
     const Eigen::Vector3d place = pose.rotation.conjugate() * (in_camera - pose.translation);
     const Binding binding = binder.Bind(place, map.neighbors());
     const LocalWarp warp = map.WarpOf(binding);
-    if (!(warp.gradient.determinant() > kMinDeterminant)) {
+    if (!warp.IsInvertible()) {
       return Status::Error("point " + std::to_string(named.id) +
                            " lies where the map is folded, expected a place that is not");
     }
     Point point;
     point.id = named.id;
-    point.at_rest = warp.gradient.inverse() * (place - warp.offset);
+    point.at_rest = warp.AtRest(place);
     point.normal_at_rest = map.point(nearest->slot).normal;
     point.num_nodes = binding.size;
     std::copy_n(binding.nodes, binding.size, point.nodes.begin());
