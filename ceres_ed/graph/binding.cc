@@ -51,7 +51,6 @@ Skinning BindInSpace(const std::vector<Eigen::Vector3d>& points,
     }
   });
   Skinning skinning(options.neighbors);
-  skinning.Reserve(points.size());
   for (const BoundNodes& b : bound) skinning.Add(b.nodes.data(), b.weights.data(), b.size);
   return skinning;
 }
@@ -66,7 +65,6 @@ Skinning BindAlongSurface(const std::vector<Eigen::Vector3d>& points,
       NearestSeedsAlongSurface(topology, node_points, neighbors + 1, offsets);
   const KdTree node_tree(node_positions);
   Skinning skinning(neighbors);
-  skinning.Reserve(points.size());
   std::array<double, kMaxBoundNodes> weights;
   for (int p = 0; p < static_cast<int>(points.size()); ++p) {
     const int count = nearest.Count(p);
@@ -176,14 +174,16 @@ StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
   std::string error;
   if (!options.IsValid(&error)) return Status::Error("bad binding: " + error);
   if (graph.num_nodes() == 0) return Status::Error("cannot bind points to a graph without nodes");
+  const std::vector<Eigen::Vector3d> node_positions(graph.positions().begin(),
+                                                    graph.positions().end());
   if (options.distance == DistanceRule::kEuclidean || !topology.HasSurface()) {
-    return BindInSpace(cloud.points, graph.positions(), options);
+    return BindInSpace(cloud.points, node_positions, options);
   }
   std::vector<int> entry_points;
   std::vector<double> offsets;
   EnterSurface(cloud, topology, graph, &entry_points, &offsets);
   return BindAlongSurface(
-      cloud.points, topology, graph.positions(), entry_points, offsets, options.neighbors);
+      cloud.points, topology, node_positions, entry_points, offsets, options.neighbors);
 }
 
 }  // namespace ceres_ed

@@ -2,6 +2,7 @@
 #ifndef CERES_ED_GRAPH_DEFORMATION_GRAPH_H_
 #define CERES_ED_GRAPH_DEFORMATION_GRAPH_H_
 
+#include <deque>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,7 +18,8 @@ struct GraphEdge {
   double weight = 1.0;
 };
 
-// Nodes g_j and directed edges. Node indices are stable: nodes are only ever appended.
+// Nodes g_j and directed edges. Node indices are stable: nodes are only ever appended, and none
+// that is there is copied for it.
 class DeformationGraph {
  public:
   int num_nodes() const { return static_cast<int>(positions_.size()); }
@@ -25,8 +27,8 @@ class DeformationGraph {
 
   // g_j in map units.
   const Eigen::Vector3d& position(int node) const { return positions_[node]; }
-  const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
-  const std::vector<GraphEdge>& edges() const { return edges_; }
+  const std::deque<Eigen::Vector3d>& positions() const { return positions_; }
+  const std::deque<GraphEdge>& edges() const { return edges_; }
   // Indices into edges() of every edge that leaves or enters `node`.
   const std::vector<int>& incident_edges(int node) const { return incident_edges_[node]; }
 
@@ -49,9 +51,9 @@ class DeformationGraph {
   }
 
  private:
-  std::vector<Eigen::Vector3d> positions_;
-  std::vector<GraphEdge> edges_;
-  std::vector<std::vector<int>> incident_edges_;
+  std::deque<Eigen::Vector3d> positions_;
+  std::deque<GraphEdge> edges_;
+  std::deque<std::vector<int>> incident_edges_;
 };
 
 }  // namespace ceres_ed

@@ -2,8 +2,9 @@
 #ifndef CERES_ED_GRAPH_DEFORMATION_STATE_H_
 #define CERES_ED_GRAPH_DEFORMATION_STATE_H_
 
+#include <ceres_ed/util/chunked_rows.h>
+
 #include <cstddef>
-#include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -22,31 +23,29 @@ struct CameraPose {
   }
 };
 
-// Contiguous node blocks (layout: cost_functions/node_parameters.h) and the camera.
-// Adding nodes may move the blocks: no Problem may be alive over them then.
+// Node blocks (layout: cost_functions/node_parameters.h) and the camera. Adding nodes moves no
+// block that is there.
 class DeformationState {
  public:
   DeformationState() = default;
   // All nodes at rest.
   explicit DeformationState(int num_nodes) { Resize(num_nodes); }
 
-  int num_nodes() const { return static_cast<int>(nodes_.size() / kNodeSize); }
-  double* node(int index) { return &nodes_[static_cast<std::size_t>(index) * kNodeSize]; }
-  const double* node(int index) const {
-    return &nodes_[static_cast<std::size_t>(index) * kNodeSize];
-  }
+  int num_nodes() const { return static_cast<int>(nodes_.size()); }
+  double* node(int index) { return nodes_[static_cast<std::size_t>(index)]; }
+  const double* node(int index) const { return nodes_[static_cast<std::size_t>(index)]; }
 
   // Keeps the nodes that are there; new ones are at rest.
   void Resize(int num_nodes) {
     const int old_size = this->num_nodes();
-    nodes_.resize(static_cast<std::size_t>(num_nodes) * kNodeSize);
+    nodes_.Resize(static_cast<std::size_t>(num_nodes));
     for (int j = old_size; j < num_nodes; ++j) SetNodeToRest(node(j));
   }
 
   CameraPose camera_from_map;
 
  private:
-  std::vector<double> nodes_;
+  ChunkedRows<double> nodes_{kNodeSize};
 };
 
 }  // namespace ceres_ed

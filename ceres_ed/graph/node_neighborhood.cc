@@ -9,27 +9,14 @@ std::vector<char> RingsAround(const DeformationGraph& graph,
                               int rings) {
   CHECK_EQ(seeds.size(), static_cast<std::size_t>(graph.num_nodes()));
   CHECK_GE(rings, 0);
-  std::vector<char> mask(seeds.size(), 0);
-  std::vector<int> ring;
+  NodeSet nodes;
   for (int node = 0; node < graph.num_nodes(); ++node) {
-    if (seeds[node] == 0) continue;
-    mask[node] = 1;
-    ring.push_back(node);
+    if (seeds[node] != 0) nodes.Add(node);
   }
-  std::vector<int> next_ring;
-  for (int hop = 0; hop < rings && !ring.empty(); ++hop) {
-    next_ring.clear();
-    for (const int node : ring) {
-      for (const int e : graph.incident_edges(node)) {
-        const GraphEdge& edge = graph.edges()[e];
-        const int other = edge.from == node ? edge.to : edge.from;
-        if (mask[other] != 0) continue;
-        mask[other] = 1;
-        next_ring.push_back(other);
-      }
-    }
-    ring.swap(next_ring);
-  }
+  AddRings(
+      graph, rings, [](int) { return true; }, &nodes);
+  std::vector<char> mask(seeds.size(), 0);
+  for (const int node : nodes.nodes()) mask[node] = 1;
   return mask;
 }
 

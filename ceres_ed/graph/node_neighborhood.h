@@ -3,10 +3,30 @@
 #define CERES_ED_GRAPH_NODE_NEIGHBORHOOD_H_
 
 #include <ceres_ed/graph/deformation_graph.h>
+#include <ceres_ed/graph/node_set.h>
 
 #include <vector>
 
 namespace ceres_ed {
+
+// Adds to `nodes` every node that is at most `rings` >= 0 edges (in either direction) from one that
+// is there, ring by ring. A node that `admits(node)` refuses is neither added nor passed.
+template <typename Admits>
+void AddRings(const DeformationGraph& graph, int rings, Admits admits, NodeSet* nodes) {
+  int begin = 0;
+  for (int ring = 0; ring < rings; ++ring) {
+    const int end = nodes->size();
+    for (int i = begin; i < end; ++i) {
+      const int node = nodes->nodes()[i];
+      for (const int e : graph.incident_edges(node)) {
+        const GraphEdge& edge = graph.edges()[e];
+        const int other = edge.from == node ? edge.to : edge.from;
+        if (!nodes->Has(other) && admits(other)) nodes->Add(other);
+      }
+    }
+    begin = end;
+  }
+}
 
 // 1 for every node that is at most `rings` >= 0 edges (in either direction) from a node with a
 // non-zero `seeds`, the seeds included. `seeds` and the result have one element a node.

@@ -49,7 +49,8 @@ PlyElement MakeNodeElement(const DeformationGraph& graph,
   const std::vector<double> relevant = pr.values;
   nodes.properties.push_back(std::move(pr));
   if (options.with_colors) AppendColors(relevant, &nodes);
-  AppendVectorColumns(graph.positions(), {"rest_x", "rest_y", "rest_z"}, PlyType::kFloat32, &nodes);
+  const std::vector<Eigen::Vector3d> rest(graph.positions().begin(), graph.positions().end());
+  AppendVectorColumns(rest, {"rest_x", "rest_y", "rest_z"}, PlyType::kFloat32, &nodes);
   return nodes;
 }
 
