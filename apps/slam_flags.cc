@@ -12,15 +12,12 @@
 namespace ceres_ed {
 namespace {
 
-// When Level II runs.
-enum class LevelTwo { kFull, kLazy };
-
 constexpr Choice<SolveMode> kModes[] = {{"two_level", SolveMode::kTwoLevel},
                                         {"batch", SolveMode::kBatch},
                                         {"marginal", SolveMode::kTwoLevel, /*available=*/false}};
 constexpr Choice<SeamEdges> kBoundaries[] = {{"keep", SeamEdges::kKeep}, {"cut", SeamEdges::kCut}};
-constexpr Choice<LevelTwo> kLevelTwos[] = {{"full", LevelTwo::kFull},
-                                           {"lazy", LevelTwo::kLazy, /*available=*/false}};
+constexpr Choice<LevelTwoMode> kLevelTwos[] = {{"full", LevelTwoMode::kFull},
+                                               {"lazy", LevelTwoMode::kLazy}};
 constexpr Choice<CameraMode> kCameras[] = {{"estimate", CameraMode::kEstimate},
                                            {"fixed", CameraMode::kFixed},
                                            {"given", CameraMode::kGiven}};
@@ -53,8 +50,11 @@ DEFINE_string(boundary,
               NameOf(ceres_ed::kBoundaries, Defaults().options.seam_edges),
               "two_level: keep or cut edges across the seam of level I");
 DEFINE_string(level2,
-              NameOf(ceres_ed::kLevelTwos, ceres_ed::LevelTwo::kFull),
-              "two_level: full: level II moves the rest in every frame");
+              NameOf(ceres_ed::kLevelTwos, Defaults().options.levels.level_two),
+              "two_level: lazy: the rest moves when it has reason to; full: in every frame");
+DEFINE_int32(verify_every,
+             Defaults().options.verify_every,
+             "hold every n-th frame against the batch solve, on a copy; 0 = none");
 DEFINE_string(camera,
               NameOf(ceres_ed::kCameras, Defaults().options.camera),
               "estimate; fixed: it never moves; given: as the sequence says");
@@ -114,6 +114,7 @@ Status CheckNumbers() {
       {"live_every", FLAGS_live_every * 1.0, 0.0, "a whole number >= 0 (0 = none)"},
       {"checkpoint_every", FLAGS_checkpoint_every * 1.0, 0.0, "a whole number >= 0 (0 = none)"},
       {"nodes_in_view", FLAGS_nodes_in_view * 1.0, 4.0, "a whole number >= 4"},
+      {"verify_every", FLAGS_verify_every * 1.0, 0.0, "a whole number >= 0 (0 = none)"},
       {"threads", FLAGS_threads * 1.0, 1.0, "a whole number >= 1"},
       {"node_spacing", FLAGS_node_spacing, 0.0, "metres >= 0 (0 = automatic)"},
       {"w_rot", FLAGS_w_rot, 0.0, "a finite number >= 0"},
@@ -134,8 +135,7 @@ Status ReadChoices(SlamSettings* settings) {
   if (!status.ok()) return status;
   status = Choose("boundary", kBoundaries, FLAGS_boundary, &options->seam_edges);
   if (!status.ok()) return status;
-  LevelTwo level_two = LevelTwo::kFull;
-  status = Choose("level2", kLevelTwos, FLAGS_level2, &level_two);
+  status = Choose("level2", kLevelTwos, FLAGS_level2, &options->levels.level_two);
   if (!status.ok()) return status;
   status = Choose("camera", kCameras, FLAGS_camera, &options->camera);
   if (!status.ok()) return status;
@@ -160,6 +160,7 @@ void ReadNumbers(SlamSettings* settings) {
   options->levels.rotation_weight = FLAGS_w_rot;
   options->levels.regularization_weight = FLAGS_w_reg;
   options->levels.plane_weight = FLAGS_w_data;
+  options->verify_every = FLAGS_verify_every;
   options->num_threads = FLAGS_threads;
   options->surface.num_threads = FLAGS_threads;
   settings->sequence.first = FLAGS_first;

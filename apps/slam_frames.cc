@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glog/logging.h>
 
@@ -40,6 +41,16 @@ FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& sla
   record["energy"] = report.energy;
   record["features"] = report.features;
   record["iterations"] = report.iterations;
+  const BatchComparison& batch = report.batch;
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  record["verify_energy"] = batch.done ? batch.energy : nothing;
+  record["verify_batch_energy"] = batch.done ? batch.batch_energy : nothing;
+  record["verify_gap"] = batch.done ? batch.Gap() : nothing;
+  record["verify_node_mean"] = batch.done ? batch.node_mean * slam.unit() : nothing;
+  record["verify_node_max"] = batch.done ? batch.node_max * slam.unit() : nothing;
+  record["verify_camera_deg"] = batch.done ? batch.camera_deg : nothing;
+  record["verify_camera_m"] = batch.done ? batch.camera_distance * slam.unit() : nothing;
+  record["t_verify"] = times.verify;
   return record;
 }
 

@@ -14,11 +14,22 @@ namespace ceres_ed {
 
 // Columns behind frame and status; scripts rely on the names and, up to energy, on their order.
 // Seconds, metres, counts; t_total is all of a frame but t_load (reading and decoding) and t_write.
-inline constexpr std::array<const char*, 22> kFrameColumns = {
-    "t_total",    "t_load",     "t_associate", "t_camera",  "t_level1", "t_level2",
-    "t_warp",     "t_grow",     "nodes",       "pr",        "active",   "updated_pi",
-    "points",     "map_points", "inliers",     "rms_plane", "energy",   "t_observe",
-    "t_features", "t_write",    "features",    "iterations"};
+inline constexpr std::array<const char*, 30> kFrameColumns = {
+    "t_total",         "t_load",
+    "t_associate",     "t_camera",
+    "t_level1",        "t_level2",
+    "t_warp",          "t_grow",
+    "nodes",           "pr",
+    "active",          "updated_pi",
+    "points",          "map_points",
+    "inliers",         "rms_plane",
+    "energy",          "t_observe",
+    "t_features",      "t_write",
+    "features",        "iterations",
+    "verify_energy",   "verify_batch_energy",
+    "verify_gap",      "verify_node_mean",
+    "verify_node_max", "verify_camera_deg",
+    "verify_camera_m", "t_verify"};
 
 // One row.
 struct FrameRecord {

@@ -287,10 +287,9 @@ Status SlamOutput::WriteMap(const DeformableSlam& slam) const {
   InMetres(slam, &graph, &state);
   GraphWriteOptions graph_options;
   graph_options.with_colors = true;
-  const std::vector<char>& relevant = slam.point_relevant();
-  graph_options.is_point_relevant.assign(relevant.begin(), relevant.end());
-  // Nodes that the last frame has added carry what it shows.
-  graph_options.is_point_relevant.resize(static_cast<std::size_t>(graph.num_nodes()), true);
+  for (int j = 0; j < graph.num_nodes(); ++j) {
+    graph_options.is_point_relevant.push_back(slam.HasData(j));
+  }
   return WriteGraph(Path(kGraph), graph, state, graph_options);
 }
 

@@ -80,10 +80,10 @@ ordered_json FramesReport(const std::vector<FrameRecord>& records) {
 
 ordered_json NodesReport(const DeformableSlam& slam) {
   const int total = slam.map().graph().num_nodes();
-  const std::vector<char>& relevant = slam.point_relevant();
-  const int pi = static_cast<int>(std::count(relevant.begin(), relevant.end(), 0));
+  int pr = 0;
+  for (int j = 0; j < total; ++j) pr += slam.HasData(j) ? 1 : 0;
   return {
-      {"total", total}, {"pr", total - pi}, {"pi", pi}, {"edges", slam.map().graph().num_edges()}};
+      {"total", total}, {"pr", pr}, {"pi", total - pr}, {"edges", slam.map().graph().num_edges()}};
 }
 
 ordered_json TimeReport(const SlamRun& run) {

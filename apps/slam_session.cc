@@ -138,6 +138,8 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
       return Outcome::Done();
     }
   }
+  const bool live = settings_.live_every > 0 && index % settings_.live_every == 0;
+  input.catch_up = live || !points_.empty() || tracked_.size() > 0;
   Timer timer;
   const double load_s = (*record)["t_load"];
   *record = MakeFrameRecord(slam_->Process(input), *slam_);
@@ -159,7 +161,7 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   }
   FrameOutput options;
   options.time_s = sequence_.time_s(index);
-  options.live = settings_.live_every > 0 && index % settings_.live_every == 0;
+  options.live = live;
   options.tracked = tracked_.size() > 0 ? &tracked_ : nullptr;
   const Status status = output_->WriteFrame(*record, *slam_, options);
   (*record)["t_write"] = timer.Seconds();
@@ -173,6 +175,7 @@ Outcome SlamSession::Finish(Outcome outcome) {
         Status::Error(sequence_path_ + ": none of its " + std::to_string(records_.size()) +
                       " frames could be used, expected depth in one at least"));
   }
+  slam_->CatchUp();
   SlamRun run = MakeRun();
   run.message = outcome.message;
   run.status = "failed";
@@ -213,6 +216,7 @@ Status SlamSession::WriteResults(const SlamRun& run) const {
 }
 
 Status SlamSession::WriteCheckpoint() {
+  slam_->CatchUp();
   SlamRun run = MakeRun();
   run.status = "running";
   run.message = "after frame " + std::to_string(records_.back().number);

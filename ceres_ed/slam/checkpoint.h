@@ -24,7 +24,7 @@
 namespace ceres_ed {
 
 // Of what Exchange() lists; others are refused.
-inline constexpr int kCheckpointVersion = 1;
+inline constexpr int kCheckpointVersion = 2;
 
 // Named values on their way to the bytes or back. Loading never crashes: what is missing or of
 // another size leaves its target as it is and makes status() an error.

@@ -29,10 +29,11 @@ void ExchangeCount(const std::string& name,
   if (!archive->saving()) rows->assign(static_cast<std::size_t>(std::max(0, count)), fresh);
 }
 
-void ExchangeFlags(const std::string& name, std::vector<char>* flags, CheckpointArchive* archive) {
-  std::vector<std::uint8_t> bytes(flags->begin(), flags->end());
-  archive->Array(name, &bytes);
-  flags->assign(bytes.begin(), bytes.end());
+void ExchangeNodes(const std::string& name, NodeSet* nodes, CheckpointArchive* archive) {
+  std::vector<int> list = nodes->nodes();
+  archive->Array(name, &list);
+  nodes->Clear();
+  for (const int node : list) nodes->Add(node);
 }
 
 // The nodes of one point, with nothing uninitialised behind them.
@@ -52,11 +53,11 @@ void DeformableMap::Exchange(CheckpointArchive* archive) {
 }
 
 void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
-  std::vector<Eigen::Vector3d> positions = graph_.positions();
+  std::vector<Eigen::Vector3d> positions(graph_.positions().begin(), graph_.positions().end());
   ExchangeCount<Eigen::Vector3d>("nodes", &positions, archive, Eigen::Vector3d::Zero());
   archive->Column(
       "node_positions", &positions, [](auto& p) -> auto& { return p; });
-  std::vector<GraphEdge> edges = graph_.edges();
+  std::vector<GraphEdge> edges(graph_.edges().begin(), graph_.edges().end());
   ExchangeCount("edges", &edges, archive);
   archive->Column("edge_from", &edges, [](GraphEdge& e) -> int& { return e.from; });
   archive->Column("edge_to", &edges, [](GraphEdge& e) -> int& { return e.to; });
@@ -66,37 +67,41 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
     parameters.insert(parameters.end(), state_.node(j), state_.node(j) + kNodeSize);
   }
   archive->Array("node_parameters", &parameters);
-  if (!archive->saving()) node_prior_.assign(positions.size(), Eigen::Vector3d::Zero());
+  std::vector<Eigen::Vector3d> priors(node_prior_.begin(), node_prior_.end());
+  priors.resize(positions.size(), Eigen::Vector3d::Zero());
   archive->Column(
-      "node_prior", &node_prior_, [](auto& t) -> auto& { return t; });
+      "node_prior", &priors, [](auto& t) -> auto& { return t; });
   ExchangePose("camera_from_map", &state_.camera_from_map, archive);
   if (archive->saving() || !archive->status().ok()) return;
   graph_ = DeformationGraph();
+  node_prior_.assign(priors.begin(), priors.end());
   for (const Eigen::Vector3d& position : positions) graph_.AddNode(position);
   for (const GraphEdge& edge : edges) graph_.AddEdge(edge);
   state_.Resize(graph_.num_nodes());
+  index_ = NodeIndex();
   for (int j = 0; j < graph_.num_nodes(); ++j) {
-    std::copy_n(&parameters[static_cast<std::size_t>(j) * kNodeSize], kNodeSize, state_.node(j));
+    SetNode(j, &parameters[static_cast<std::size_t>(j) * kNodeSize]);
   }
 }
 
 void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
   using Point = MapPoint;
-  ExchangeCount("slots", &points_, archive);
+  std::vector<MapPoint> points(points_.begin(), points_.end());
+  ExchangeCount("slots", &points, archive);
   archive->Column(
-      "position", &points_, [](Point & p) -> auto& { return p.position; });
+      "position", &points, [](Point & p) -> auto& { return p.position; });
   archive->Column(
-      "normal", &points_, [](Point & p) -> auto& { return p.normal; });
-  archive->Column("weight", &points_, [](Point& p) -> double& { return p.weight; });
+      "normal", &points, [](Point & p) -> auto& { return p.normal; });
+  archive->Column("weight", &points, [](Point& p) -> double& { return p.weight; });
   archive->Column(
-      "color", &points_, [](Point & p) -> auto& { return p.color; });
-  archive->Column("id", &points_, [](Point& p) -> int& { return p.id; });
-  archive->Column("birth_frame", &points_, [](Point& p) -> int& { return p.birth_frame; });
+      "color", &points, [](Point & p) -> auto& { return p.color; });
+  archive->Column("id", &points, [](Point& p) -> int& { return p.id; });
+  archive->Column("birth_frame", &points, [](Point& p) -> int& { return p.birth_frame; });
   archive->Column(
-      "birth_position", &points_, [](Point & p) -> auto& { return p.birth_position; });
-  archive->Column("contradictions", &points_, [](Point& p) -> int& { return p.contradictions; });
+      "birth_position", &points, [](Point & p) -> auto& { return p.birth_position; });
+  archive->Column("contradictions", &points, [](Point& p) -> int& { return p.contradictions; });
 
-  std::vector<BindingRow> bindings(points_.size());
+  std::vector<BindingRow> bindings(points.size());
   for (std::size_t slot = 0; archive->saving() && slot < bindings.size(); ++slot) {
     const Binding binding = skinning_[slot];
     std::copy_n(binding.nodes, binding.size, bindings[slot].nodes.begin());
@@ -121,6 +126,7 @@ void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
   archive->Value("num_points", &num_points_);
   archive->Value("next_id", &next_id_);
   if (archive->saving() || !archive->status().ok()) return;
+  points_.assign(points.begin(), points.end());
   skinning_ = Skinning(neighbors_);
   for (const BindingRow& b : bindings) skinning_.Add(b.nodes.data(), b.weights.data(), b.size);
   points_of_node_.clear();
@@ -161,9 +167,19 @@ void Levels::ForgetSolvers() {
 
 void Levels::Exchange(CheckpointArchive* archive) {
   archive->Enter("levels");
-  ExchangeFlags("point_relevant", &point_relevant_, archive);
-  ExchangeFlags("moved", &moved_, archive);
+  ExchangeNodes("point_relevant", &point_relevant_, archive);
+  ExchangeNodes("moved", &moved_, archive);
+  pending_.Exchange(archive);
   archive->Leave();
+}
+
+void PendingNodes::Exchange(CheckpointArchive* archive) {
+  std::vector<double> changes(changes_.begin(), changes_.end());
+  archive->Array("pending", &changes);
+  if (archive->saving()) return;
+  changes_.clear();
+  listed_.Clear();
+  for (std::size_t j = 0; j < changes.size(); ++j) Set(static_cast<int>(j), changes[j]);
 }
 
 void TissueMemory::Exchange(CheckpointArchive* archive) {
@@ -192,6 +208,7 @@ void TissueMemory::Exchange(CheckpointArchive* archive) {
   if (archive->saving() || !archive->status().ok()) return;
   traces_.assign(static_cast<std::size_t>(num_nodes), {});
   for (const Row& row : rows) traces_.at(row.node).push_back({row.moment, row.translation});
+  ListNodes();
 }
 
 void DeformableSlam::Exchange(CheckpointArchive* archive) {
@@ -200,6 +217,7 @@ void DeformableSlam::Exchange(CheckpointArchive* archive) {
   ExchangePose("world_from_map", &world_from_map_, archive);
   ExchangePose("camera_step", &camera_step_, archive);
   archive->Value("points_before", &points_before_);
+  archive->Value("nodes_before_growth", &nodes_before_growth_);
   map_.Exchange(archive);
   features_.Exchange(archive);
   memory_.Exchange(archive);

@@ -4,10 +4,17 @@
 #include <utility>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cost_functions/node_parameters.h>
 #include <glog/logging.h>
 
 namespace ceres_ed {
+namespace {
+
+// Points lie within this many map units (node spacings) of their strongest node.
+constexpr double kReach = 3.0;
+
+}  // namespace
 
 bool LocalWarp::IsInvertible() const {
   constexpr double kMinDeterminant = 0.1;
@@ -27,7 +34,18 @@ int DeformableMap::AddNode(const Eigen::Vector3d& at_rest,
   MutableNodeTranslation(state_.node(node)) = now - at_rest;
   points_of_node_.emplace_back();
   node_prior_.push_back(now - at_rest);
+  index_.Place(node, now);
   return node;
+}
+
+void DeformableMap::Connect(int a, int b) {
+  graph_.AddEdge({a, b, 1.0});
+  graph_.AddEdge({b, a, 1.0});
+}
+
+void DeformableMap::SetNode(int node, const double* parameters) {
+  std::copy_n(parameters, kNodeSize, state_.node(node));
+  index_.Place(node, NodePosition(node));
 }
 
 int DeformableMap::AddPoint(MapPoint point, const Binding& binding) {
@@ -68,11 +86,6 @@ void DeformableMap::Detach(int slot) {
   owner.erase(std::find(owner.begin(), owner.end(), slot));
 }
 
-void DeformableMap::SetNodePrior(std::vector<Eigen::Vector3d> translations) {
-  CHECK_EQ(static_cast<int>(translations.size()), graph_.num_nodes());
-  node_prior_ = std::move(translations);
-}
-
 Eigen::Vector3d DeformableMap::NodePosition(int node) const {
   return graph_.position(node) + NodeTranslation(state_.node(node));
 }
@@ -88,6 +101,27 @@ LocalWarp DeformableMap::WarpOf(const Binding& binding) const {
     warp.offset += w * (NodePosition(j) - affine * graph_.position(j));
   }
   return warp;
+}
+
+LocalWarp DeformableMap::RigidWarpOf(const Binding& binding) const {
+  LocalWarp warp;
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(WarpOf(binding).gradient,
+                                              Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const bool reflects = svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0;
+  const Eigen::Vector3d signs(1.0, 1.0, reflects ? -1.0 : 1.0);
+  warp.gradient = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+  for (int i = 0; i < binding.size; ++i) {
+    const int j = binding.nodes[i];
+    warp.offset += binding.weights[i] * (NodePosition(j) - warp.gradient * graph_.position(j));
+  }
+  return warp;
+}
+
+std::vector<int> DeformableMap::NodesNearView(const ViewVolume& view) const {
+  std::vector<int> nodes = index_.NearView(view, kReach);
+  const auto outside = [&](int node) { return !view.MayTouch(NodePosition(node), kReach); };
+  nodes.erase(std::remove_if(nodes.begin(), nodes.end(), outside), nodes.end());
+  return nodes;
 }
 
 }  // namespace ceres_ed

@@ -5,9 +5,12 @@
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/graph/skinning.h>
+#include <ceres_ed/slam/node_index.h>
+#include <ceres_ed/slam/view_volume.h>
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include <Eigen/Core>
@@ -48,8 +51,9 @@ struct LocalWarp {
   Eigen::Vector3d AtRest(const Eigen::Vector3d& now) const;
 };
 
-// Points and nodes, both with stable indices. A point belongs to its strongest node, so that what a
-// node carries is found without a walk through the map.
+// Points and nodes, both with stable indices. A point belongs to its strongest node, and nodes are
+// found by place, so that what is in view is found without a walk through the map; nothing that is
+// there is copied when the map grows.
 class DeformableMap {
  public:
   // `neighbors` nodes carry a point (m of Eq. 2), in [1, kMaxBoundNodes].
@@ -57,9 +61,8 @@ class DeformableMap {
 
   int neighbors() const { return neighbors_; }
   const DeformationGraph& graph() const { return graph_; }
-  DeformationGraph& mutable_graph() { return graph_; }
   const DeformationState& state() const { return state_; }
-  DeformationState& mutable_state() { return state_; }
+  void SetCamera(const CameraPose& camera_from_map) { state_.camera_from_map = camera_from_map; }
 
   // Slots of points, in use or not.
   int num_slots() const { return static_cast<int>(points_.size()); }
@@ -75,6 +78,10 @@ class DeformableMap {
   int AddNode(const Eigen::Vector3d& at_rest,
               const Eigen::Vector3d& now,
               const Eigen::Matrix3d& affine);
+  // An edge of weight 1 in either direction.
+  void Connect(int a, int b);
+  // A_j and t_j of a node that is there, in the layout of node_parameters.h.
+  void SetNode(int node, const double* parameters);
 
   // Returns the slot of a new point; its id is the next one.
   int AddPoint(MapPoint point, const Binding& binding);
@@ -82,14 +89,20 @@ class DeformableMap {
   void Rebind(int slot, const Binding& binding);
   void RemovePoint(int slot);
 
-  // t_j where each node is thought to be; that of its birth for a new one.
-  const std::vector<Eigen::Vector3d>& node_prior() const { return node_prior_; }
-  // One entry a node.
-  void SetNodePrior(std::vector<Eigen::Vector3d> translations);
+  // t_j where a node is thought to be; that of its birth for a new one.
+  const Eigen::Vector3d& node_prior(int node) const { return node_prior_[node]; }
+  void SetNodePrior(int node, const Eigen::Vector3d& translation) {
+    node_prior_[node] = translation;
+  }
 
   // Where node j is now, g_j + t_j.
   Eigen::Vector3d NodePosition(int node) const;
   LocalWarp WarpOf(const Binding& binding) const;
+  // The rotation nearest to that, about the bound nodes: the same without its strain.
+  LocalWarp RigidWarpOf(const Binding& binding) const;
+
+  // The nodes that may carry something in view, by number, and few others.
+  std::vector<int> NodesNearView(const ViewVolume& view) const;
 
   // Saves everything, or loads it in the place of what is there.
   void Exchange(CheckpointArchive* archive);
@@ -103,10 +116,11 @@ class DeformableMap {
   DeformationGraph graph_;
   DeformationState state_;
   Skinning skinning_;
-  std::vector<Eigen::Vector3d> node_prior_;
-  std::vector<MapPoint> points_;
+  NodeIndex index_;
+  std::deque<Eigen::Vector3d> node_prior_;
+  std::deque<MapPoint> points_;
   std::vector<int> free_slots_;
-  std::vector<std::vector<int>> points_of_node_;
+  std::deque<std::vector<int>> points_of_node_;
   int num_points_ = 0;
   int next_id_ = 0;
 };

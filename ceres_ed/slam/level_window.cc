@@ -53,10 +53,4 @@ LevelWindow LevelWindowBuilder::Build(const DeformationGraph& graph,
   return window;
 }
 
-void WriteBack(const LevelWindow& window, DeformationState* state) {
-  for (int i = 0; i < window.num_variable; ++i) {
-    std::copy_n(window.state.node(i), kNodeSize, state->node(window.nodes[i]));
-  }
-}
-
 }  // namespace ceres_ed

@@ -47,9 +47,6 @@ class LevelWindowBuilder {
   std::vector<int> taken_;
 };
 
-// Copies the variable nodes' parameters back into the map's state.
-void WriteBack(const LevelWindow& window, DeformationState* state);
-
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_SLAM_LEVEL_WINDOW_H_

@@ -4,9 +4,12 @@
 
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/energy/energy_spec.h>
+#include <ceres_ed/graph/node_set.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/slam/deformable_map.h>
 #include <ceres_ed/slam/level_window.h>
+#include <ceres_ed/slam/node_prior_source.h>
+#include <ceres_ed/slam/pending_nodes.h>
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/util/status.h>
 
@@ -39,6 +42,33 @@ struct FrameObservations {
   // Point to point.
   std::vector<MapObservation> features;
   double feature_width = 1.0;
+  // Where the pose prior holds the camera.
+  CameraPose camera_prior;
+};
+
+// When Level II moves a PI node.
+enum class LevelTwoMode {
+  // In every frame.
+  kFull,
+  // When what pulls at it has moved; the others are left behind until somebody asks for them.
+  kLazy,
+};
+
+// A wave goes out from what has moved: the unsettled nodes, and so many rings around them, are
+// solved with the rest held; those at the rim that have moved unsettle the nodes behind them.
+struct LazyOptions {
+  // Changes that are smaller unsettle nobody, map units, > 0.
+  double tolerance = 0.005;
+  // Rings around the unsettled nodes, >= 1.
+  int reach = 3;
+  // Waves a frame at most, >= 1; what is unsettled then waits for the next frame.
+  int waves_per_frame = 1;
+  // Unsettled nodes that a wave starts from at most, those with the largest changes, >= 1: keeps a
+  // frame's time even where nothing holds the tissue.
+  int max_seeds = 1000;
+
+  // False, with the option and what was expected in `error`, when a value is out of range.
+  bool IsValid(std::string* error) const;
 };
 
 struct LevelsOptions {
@@ -60,6 +90,8 @@ struct LevelsOptions {
   // Rings of PI nodes that Level I moves too; -1 moves every node: the batch solve.
   int rings = 2;
   SeamEdges seam_edges = SeamEdges::kKeep;
+  LevelTwoMode level_two = LevelTwoMode::kLazy;
+  LazyOptions lazy;
   LinearSolver linear_solver = LinearSolver::kBlock;
   // One step by default: the observations change with it. More are taken only where the first ones
   // bring nothing.
@@ -87,15 +119,28 @@ class Levels {
                                                   const EnergyRegistry& registry);
 
   // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved.
-  LevelReport SolveLevelOne(const FrameObservations& observations, DeformableMap* map);
+  // `priors` may be null: then nodes keep the prior that they have.
+  LevelReport SolveLevelOne(const FrameObservations& observations,
+                            NodePriorSource* priors,
+                            DeformableMap* map);
 
-  // Level II (Eq. 15): moves the nodes that Level I has held.
-  LevelReport SolveLevelTwo(DeformableMap* map);
+  // Level II (Eq. 15): moves the PI nodes, all or those that have reason to move.
+  LevelReport SolveLevelTwo(NodePriorSource* priors, DeformableMap* map);
 
-  // 1 for each node that the last Level I moved.
-  const std::vector<char>& moved_nodes() const { return moved_; }
-  // 1 for each PR node of the last Level I.
-  const std::vector<char>& point_relevant() const { return point_relevant_; }
+  // Lets PI nodes that were left behind follow until none is unsettled: of all of them.
+  LevelReport CatchUp(NodePriorSource* priors, DeformableMap* map);
+  // And until none of `nodes` is.
+  LevelReport CatchUp(const std::vector<int>& nodes, NodePriorSource* priors, DeformableMap* map);
+
+  // The same on a copy of the map: what the levels know of the map itself, and what comes of it,
+  // stays as it is.
+  void CatchUpCopy(NodePriorSource* priors, DeformableMap* copy);
+
+  // The nodes that the last Level I moved, and its PR nodes, by number.
+  const NodeSet& moved_nodes() const { return moved_; }
+  const NodeSet& point_relevant() const { return point_relevant_; }
+  // For what changes outside of the levels.
+  PendingNodes& pending() { return pending_; }
 
   // Drops what the solvers keep from one frame for the next. It saves time, but the order in which
   // they sum depends on it, and with that the last digits.
@@ -114,23 +159,34 @@ class Levels {
     bool observation = false;
   };
 
-  explicit Levels(const LevelsOptions& options) : options_(options) {}
-  void MarkPointRelevant(const FrameObservations& observations, int num_nodes);
-  std::vector<int> VariableNodes(const DeformableMap& map);
-  // Solves a level of the window and takes what it has moved over into the map.
+  explicit Levels(const LevelsOptions& options)
+      : options_(options), pending_(options.lazy.tolerance) {}
+  void MarkPointRelevant(const FrameObservations& observations);
+  void MarkMoved(const DeformableMap& map);
+  // Level II of some PI nodes, the others held.
+  LevelReport SolveHidden(const std::vector<int>& nodes,
+                          NodePriorSource* priors,
+                          DeformableMap* map);
+  // Waves from those unsettled PI nodes that `counts`, until there are none.
+  template <typename Counts>
+  LevelReport SendWaves(int most, Counts counts, NodePriorSource* priors, DeformableMap* map);
+  // Solves a level of the window and takes what it has moved over into the map. `motion` becomes
+  // how far each variable node went.
   LevelReport Solve(const ProblemBuilder& builder,
                     const ProblemConfig& config,
                     LevelSolver* solver,
                     LevelWindow* window,
-                    DeformableMap* map);
+                    DeformableMap* map,
+                    std::vector<double>* motion);
 
   LevelsOptions options_;
   std::vector<Term> terms_;
   LevelWindowBuilder windows_;
   std::unique_ptr<LevelSolver> level_one_;
   std::unique_ptr<LevelSolver> level_two_;
-  std::vector<char> point_relevant_;
-  std::vector<char> moved_;
+  NodeSet point_relevant_;
+  NodeSet moved_;
+  PendingNodes pending_;
 };
 
 }  // namespace ceres_ed

@@ -10,8 +10,6 @@
 namespace ceres_ed {
 namespace {
 
-// Nodes farther than this outside the picture carry nothing that is seen.
-constexpr double kReach = 3.0;
 // Edges don't span more than this, unless a node would have none.
 constexpr double kLongestEdge = 2.5;
 constexpr int kFewestEdges = 3;
@@ -91,18 +89,15 @@ void AddNodeAt(const Eigen::Vector3d& place,
   std::vector<int> partners;
   if (!binder->empty()) {
     partners = binder->Nearest(place, options.edges_per_node);
-    warp = map->WarpOf(binder->Bind(place, map->neighbors()));
-    if (!warp.IsInvertible()) {
-      warp.gradient.setIdentity();
-      warp.offset = map->NodePosition(partners[0]) - map->graph().position(partners[0]);
-    }
+    // Born unstrained: a strain that new tissue took over from its neighbours would be its rest
+    // shape, and grow from node to node as the map does.
+    warp = map->RigidWarpOf(binder->Bind(place, map->neighbors()));
   }
   const int node = map->AddNode(warp.AtRest(place), place, warp.gradient);
   for (int k = 0; k < static_cast<int>(partners.size()); ++k) {
     const double length = (map->NodePosition(partners[k]) - place).norm();
     if (k >= kFewestEdges && length > kLongestEdge) break;
-    map->mutable_graph().AddEdge({node, partners[k], 1.0});
-    map->mutable_graph().AddEdge({partners[k], node, 1.0});
+    map->Connect(node, partners[k]);
   }
   binder->AddNode(*map, node);
 }
@@ -145,15 +140,7 @@ void RebindNear(int first_new_node,
 PlaceBinder::PlaceBinder(const DeformableMap& map,
                          const CameraPose& camera_from_map,
                          const PinholeCamera& camera) {
-  for (int node = 0; node < map.graph().num_nodes(); ++node) {
-    const Eigen::Vector3d x = camera_from_map * map.NodePosition(node);
-    const double z = std::max(x.z(), 1e-9);
-    const double margin = kReach * std::max(camera.fx, camera.fy) / z;
-    const Eigen::Vector2d pixel = camera.Project({x.x(), x.y(), z});
-    const bool near = x.z() > -kReach && pixel.x() > -margin && pixel.y() > -margin &&
-                      pixel.x() < camera.width + margin && pixel.y() < camera.height + margin;
-    if (near) AddNode(map, node);
-  }
+  for (const int node : map.NodesNearView(ViewVolume(camera_from_map, camera))) AddNode(map, node);
 }
 
 void PlaceBinder::AddNode(const DeformableMap& map, int node) {

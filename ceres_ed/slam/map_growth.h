@@ -33,7 +33,7 @@ struct MapGrowthResult {
 // Binds places on the map, as it is deformed now, to the nodes nearest to them (Eq. 2).
 class PlaceBinder {
  public:
-  // Sees the nodes near the picture.
+  // Knows the nodes near the view.
   PlaceBinder(const DeformableMap& map,
               const CameraPose& camera_from_map,
               const PinholeCamera& camera);

@@ -74,13 +74,14 @@ bool SlamOptions::IsValid(std::string* error) const {
          require(rounds >= 1, "rounds", rounds, ">= 1") &&
          require(max_observations >= 100, "max_observations", max_observations, ">= 100") &&
          require(max_point_weight >= 1.0, "max_point_weight", max_point_weight, ">= 1") &&
+         require(verify_every >= 0, "verify_every", verify_every, ">= 0") &&
          require(num_threads >= 1, "num_threads", num_threads, ">= 1") &&
          require(surface.cell >= 1, "surface.cell", surface.cell, ">= 1") &&
          require(surface.radius >= 1, "surface.radius", surface.radius, ">= 1") &&
          require(growth.point_spacing > 0.0, "growth.point_spacing", growth.point_spacing, "> 0") &&
          require(growth.node_coverage > 0.0, "growth.node_coverage", growth.node_coverage, "> 0") &&
          require(feature.count >= 0, "feature.count", feature.count, ">= 0") &&
-         levels.solver.IsValid(error);
+         levels.lazy.IsValid(error) && levels.solver.IsValid(error);
 }
 
 DeformableSlam::DeformableSlam(const PinholeCamera& camera, const SlamOptions& options)
@@ -105,6 +106,11 @@ StatusOr<std::unique_ptr<DeformableSlam>> DeformableSlam::Create(const PinholeCa
   StatusOr<std::unique_ptr<Levels>> created = Levels::Create(levels, registry);
   if (!created.ok()) return created.status();
   slam->levels_ = *std::move(created);
+  if (options.verify_every > 0) {
+    StatusOr<std::unique_ptr<BatchReference>> batch = BatchReference::Create(levels, registry);
+    if (!batch.ok()) return batch.status();
+    slam->batch_ = *std::move(batch);
+  }
   return slam;
 }
 
@@ -122,7 +128,7 @@ FrameReport DeformableSlam::Process(const SlamFrame& frame) {
   if (first) {
     report.status = FrameStatus::kInitialized;
   } else if (FindCamera(frame, surface, &report)) {
-    FollowTissue(surface, &report);
+    FollowTissue(surface, frame.catch_up, &report);
   } else {
     report.nodes = map_.graph().num_nodes();
     report.map_points = map_.num_points();
@@ -160,6 +166,12 @@ CameraPose DeformableSlam::Predict(const SlamFrame& frame) const {
   return pose;
 }
 
+// What comes into view is brought up to date ahead of that.
+void DeformableSlam::CatchUpInView(const CameraPose& camera_from_map) {
+  const std::vector<int> near = map_.NodesNearView(ViewVolume(camera_from_map, camera_));
+  levels_->CatchUp(near, /*priors=*/nullptr, &map_);
+}
+
 bool DeformableSlam::FindCamera(const SlamFrame& frame,
                                 const ObservedSurface& surface,
                                 FrameReport* report) {
@@ -173,6 +185,8 @@ bool DeformableSlam::FindCamera(const SlamFrame& frame,
     matches = features_.Matches(map_);
   }
   report->times.features += timer.Restart();
+  CatchUpInView(predicted);
+  report->times.level2 += timer.Restart();
   const VisibilityOptions visibility;
   visible_ = FindVisible(map_, predicted, camera_, visibility);
   report->times.associate += timer.Restart();
@@ -193,7 +207,7 @@ bool DeformableSlam::FindCamera(const SlamFrame& frame,
   report->times.camera += timer.Restart();
   const bool jumped = report->status == FrameStatus::kRelocalized;
   camera_step_ = jumped ? CameraPose() : Compose(found, Inverse(before));
-  map_.mutable_state().camera_from_map = found;
+  map_.SetCamera(found);
   return true;
 }
 
@@ -215,6 +229,7 @@ bool DeformableSlam::Confirm(const ObservedSurface& surface,
   if (sound && other.quality.Score() > kClearlyBetter * quality.Score()) {
     *pose = other.camera_from_map;
     report->status = FrameStatus::kRelocalized;
+    CatchUpInView(*pose);
     visible_ = FindVisible(map_, *pose, camera_, VisibilityOptions());
     features_.Clear();
     return true;

@@ -5,6 +5,7 @@
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/slam/batch_comparison.h>
 #include <ceres_ed/slam/camera_tracker.h>
 #include <ceres_ed/slam/deformable_map.h>
 #include <ceres_ed/slam/feature_points.h>
@@ -53,6 +54,8 @@ struct SlamOptions {
   // Number of observations after which the running average of a point forgets, >= 1.
   double max_point_weight = 20.0;
   TissueMemoryOptions memory;
+  // Hold every n-th frame against the batch solve of its last problem, on a copy; 0 = none.
+  int verify_every = 0;
   int num_threads = 1;
   LevelsOptions levels;
   FeatureOptions feature;
@@ -71,6 +74,8 @@ struct SlamFrame {
   const ColorImage* color = nullptr;
   // For CameraMode::kGiven.
   const CameraPose* world_from_camera = nullptr;
+  // Whether all of the map will be asked for after this frame.
+  bool catch_up = false;
 };
 
 enum class FrameStatus {
@@ -98,6 +103,7 @@ struct FrameTimes {
   double level2 = 0.0;
   double warp = 0.0;
   double grow = 0.0;
+  double verify = 0.0;
 };
 
 struct FrameReport {
@@ -120,6 +126,8 @@ struct FrameReport {
   // Of Level I, no unit.
   double energy = 0.0;
   int iterations = 0;
+  // Of frames that were verified.
+  BatchComparison batch;
 };
 
 // Tracks and maps one sequence. Inside, lengths are in node spacings, so that nothing depends on
@@ -139,8 +147,14 @@ class DeformableSlam {
   double unit() const { return unit_; }
   // The camera after the last frame, in map units.
   const CameraPose& camera_from_map() const { return map_.state().camera_from_map; }
-  // 1 for each node that the last tracked frame had data on; nodes that it added are not in it.
-  const std::vector<char>& point_relevant() const { return levels_->point_relevant(); }
+  // Whether the last tracked frame had data on a node, or has added it.
+  bool HasData(int node) const {
+    return levels_->point_relevant().Has(node) || node >= nodes_before_growth_;
+  }
+
+  // Lets all nodes that were left behind follow, so that the map is what it would be had they moved
+  // along, to the tolerance of LazyOptions. Ahead of a look at the whole map.
+  void CatchUp() { levels_->CatchUp(/*priors=*/nullptr, &map_); }
 
   // Saves all that the next frames depend on, or loads it in the place of what is there; of a run
   // with the same camera and options. Either way what the solvers keep is dropped, so that the run
@@ -157,16 +171,21 @@ class DeformableSlam {
                const CameraPose& before,
                CameraPose* pose,
                FrameReport* report);
-  void FollowTissue(const ObservedSurface& surface, FrameReport* report);
+  void CatchUpInView(const CameraPose& camera_from_map);
+  void FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report);
+  void NoteRecalled();
   double FeatureDeviation() const;
   void Measure(const AssociationResult& association, double noise, FrameReport* report);
   void Fuse(const AssociationResult& association, double noise);
+  void Verify(const FrameObservations& observations, FrameReport* report);
   void Grow(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
   FrameObservations Observe(const AssociationResult& association) const;
 
   PinholeCamera camera_;
   SlamOptions options_;
   std::unique_ptr<Levels> levels_;
+  // Null where no frame is verified.
+  std::unique_ptr<BatchReference> batch_;
   DeformableMap map_;
   FeaturePoints features_;
   TissueMemory memory_;
@@ -176,6 +195,8 @@ class DeformableSlam {
   CameraPose world_from_map_;
   // Points on the observed surface in the last frame that was tracked.
   int points_before_ = 0;
+  // Nodes that it started with.
+  int nodes_before_growth_ = 0;
   // The last step of the camera, for the prediction of the next.
   CameraPose camera_step_;
 };

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include <Eigen/LU>
@@ -52,19 +53,43 @@ double DeformableSlam::FeatureDeviation() const {
   return MedianDeviation(std::move(distances));
 }
 
-void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* report) {
+// Nodes that are recalled elsewhere than they were have reason to move.
+void DeformableSlam::NoteRecalled() {
+  const std::vector<int> affected = memory_.Affected();
+  std::vector<Eigen::Vector3d> before;
+  before.reserve(affected.size());
+  for (const int node : affected) before.push_back(map_.node_prior(node));
+  memory_.UpdatePriors(affected, &map_);
+  PendingNodes& pending = levels_->pending();
+  for (std::size_t k = 0; k < affected.size(); ++k) {
+    const double change = (map_.node_prior(affected[k]) - before[k]).norm();
+    if (change > pending.tolerance()) {
+      pending.Raise(affected[k], change);
+    } else {
+      // Small ones add up until they count.
+      map_.SetNodePrior(affected[k], before[k]);
+    }
+  }
+}
+
+void DeformableSlam::FollowTissue(const ObservedSurface& surface,
+                                  bool catch_up,
+                                  FrameReport* report) {
   Timer timer;
   const CameraPose& pose = map_.state().camera_from_map;
   const double noise = std::max(surface.noise(), kLeastNoise);
-  map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
+  memory_.BeginFrame(levels_->point_relevant(), &map_);
+  FrameObservations observations;
   for (int round = 0; round < options_.rounds; ++round) {
     const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
-    FrameObservations observations = Observe(association);
+    observations = Observe(association);
     observations.plane_width = kLossWidth * std::max(association.deviation, noise);
     observations.features = features_.Observations();
     observations.feature_width = kLossWidth * std::max(FeatureDeviation(), noise);
+    observations.camera_prior = pose;
     report->times.associate += timer.Restart();
-    const LevelReport level = levels_->SolveLevelOne(observations, &map_);
+    memory_.Look(levels_->point_relevant(), map_);
+    const LevelReport level = levels_->SolveLevelOne(observations, &memory_, &map_);
     report->point_relevant = level.point_relevant;
     report->active = level.variable_nodes;
     report->energy = level.energy;
@@ -76,19 +101,35 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface, FrameReport* r
     if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
   if (options_.mode != SolveMode::kBatch) {
-    map_.SetNodePrior(memory_.Recall(map_, levels_->point_relevant()));
-    report->updated_pi = levels_->SolveLevelTwo(&map_).variable_nodes;
+    NoteRecalled();
+    report->updated_pi = levels_->SolveLevelTwo(&memory_, &map_).variable_nodes;
+    if (catch_up) report->updated_pi += levels_->CatchUp(&memory_, &map_).variable_nodes;
     report->times.level2 += timer.Restart();
     UpdateVisible(map_, pose, camera_, &visible_);
     report->times.warp += timer.Restart();
   }
-  memory_.Keep(map_, levels_->point_relevant());
+  if (batch_ != nullptr && report->number % options_.verify_every == 0) {
+    Verify(observations, report);
+    timer.Restart();
+  }
+  memory_.Keep(levels_->point_relevant(), map_);
   features_.DropOutliers(map_, noise);
   const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
   Measure(association, noise, report);
   report->times.associate += timer.Restart();
   Fuse(association, surface.noise());
   report->times.warp += timer.Restart();
+}
+
+void DeformableSlam::Verify(const FrameObservations& observations, FrameReport* report) {
+  const Timer timer;
+  DeformableMap copy = map_;
+  std::vector<int> nodes(copy.graph().num_nodes());
+  std::iota(nodes.begin(), nodes.end(), 0);
+  memory_.UpdatePriors(nodes, &copy);
+  levels_->CatchUpCopy(&memory_, &copy);
+  report->batch = batch_->Compare(observations, copy);
+  report->times.verify = timer.Seconds();
 }
 
 // How well the map lies on the surface, now that it has been deformed.
@@ -141,7 +182,16 @@ void DeformableSlam::Grow(const SlamFrame& frame,
   Timer timer;
   static const ColorImage kNoColor;
   const bool color = frame.color != nullptr && !frame.color->empty();
+  nodes_before_growth_ = map_.graph().num_nodes();
   GrowMap(visible_, surface, color ? *frame.color : kNoColor, frame.number, options_.growth, &map_);
+  // New edges pull at both ends.
+  PendingNodes& pending = levels_->pending();
+  for (int node = nodes_before_growth_; node < map_.graph().num_nodes(); ++node) {
+    pending.Raise(node, 2.0 * pending.tolerance());
+    for (const int e : map_.graph().incident_edges(node)) {
+      pending.Raise(map_.graph().edges()[e].to, 2.0 * pending.tolerance());
+    }
+  }
   report->times.grow += timer.Restart();
   if (!color || !options_.features) return;
   if (report->status == FrameStatus::kInitialized) {

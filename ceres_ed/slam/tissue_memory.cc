@@ -15,8 +15,14 @@ constexpr double kLeastLikeness = 1e-6;
 // Mean square distance from a line, squared map units, from which on nodes tell a turn.
 constexpr double kLeastExtent = 1.0;
 
+Eigen::Vector3d PlaceOf(const DeformableMap& map, int node, const Eigen::Vector3d& translation) {
+  return map.graph().position(node) + translation;
+}
+
+}  // namespace
+
 // Sums over the nodes that are in view now and were at a moment: places then (p) and now (q).
-struct Comparison {
+struct TissueMemory::Comparison {
   int common = 0;
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
   Eigen::Vector3d q = Eigen::Vector3d::Zero();
@@ -32,16 +38,9 @@ struct Comparison {
   }
 };
 
-// A moment laid on the present: q = rotation p + translation, as well as a rigid motion can.
-struct Alignment {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  // Mean of |q - rotation p - translation|^2: how unlike they are.
-  double difference = 0.0;
-};
-
-Alignment Align(const Comparison& c) {
+TissueMemory::Alignment TissueMemory::Align(const Comparison& c) {
   Alignment alignment;
+  alignment.common = c.common;
   if (c.common == 0) return alignment;
   const double n = c.common;
   const Eigen::Matrix3d covariance = c.qp - c.q * c.p.transpose() / n;
@@ -60,19 +59,93 @@ Alignment Align(const Comparison& c) {
   return alignment;
 }
 
-}  // namespace
+void TissueMemory::BeginFrame(const NodeSet& observed, DeformableMap* map) {
+  anchored_.Clear();
+  for (const int node : observed.nodes()) {
+    map->SetNodePrior(node, NodeTranslation(map->state().node(node)));
+    anchored_.Add(node);
+  }
+}
 
-void TissueMemory::Keep(const DeformableMap& map, const std::vector<char>& observed) {
+void TissueMemory::Look(const NodeSet& observed, const DeformableMap& map) {
+  std::vector<Comparison> comparisons(nodes_of_moment_.size());
+  for (const int node : observed.nodes()) {
+    anchored_.Add(node);
+    if (node >= static_cast<int>(traces_.size())) continue;
+    const Eigen::Vector3d now = map.NodePosition(node);
+    for (const Trace& trace : traces_[node]) {
+      comparisons[trace.moment / stride_].Add(PlaceOf(map, node, trace.translation), now);
+    }
+  }
+  alignments_.clear();
+  for (const Comparison& c : comparisons) alignments_.push_back(Align(c));
+  JudgeLikeness();
+}
+
+void TissueMemory::JudgeLikeness() {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const Alignment& a : alignments_) {
+    if (a.common >= options_.min_common) nearest = std::min(nearest, a.difference);
+  }
+  double width = options_.likeness * options_.likeness;
+  if (std::isfinite(nearest)) width = std::max(width, nearest);
+  for (Alignment& a : alignments_) {
+    a.likeness = kLeastLikeness;
+    if (a.common == 0) continue;
+    const double share = std::min(1.0, a.common / static_cast<double>(options_.min_common));
+    a.likeness += share * std::exp(-0.5 * a.difference / width);
+  }
+}
+
+Eigen::Vector3d TissueMemory::Recall(int node, const DeformableMap& map) const {
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 0.0;
+  for (const Trace& trace : traces_[node]) {
+    const Alignment& now_from_then = alignments_[trace.moment / stride_];
+    sum +=
+        now_from_then.likeness * (now_from_then.rotation * PlaceOf(map, node, trace.translation) +
+                                  now_from_then.translation);
+    total += now_from_then.likeness;
+  }
+  return sum / total - map.graph().position(node);
+}
+
+void TissueMemory::UpdatePriors(const std::vector<int>& nodes, DeformableMap* map) {
+  for (const int node : nodes) {
+    if (anchored_.Has(node)) continue;
+    if (node < static_cast<int>(traces_.size()) && !traces_[node].empty()) {
+      map->SetNodePrior(node, Recall(node, *map));
+    } else {
+      map->SetNodePrior(node, NodeTranslation(map->state().node(node)));
+      anchored_.Add(node);
+    }
+  }
+}
+
+std::vector<int> TissueMemory::Affected() const {
+  NodeSet affected;
+  for (std::size_t k = 0; k < alignments_.size(); ++k) {
+    if (alignments_[k].common == 0) continue;
+    for (const int node : nodes_of_moment_[k]) {
+      if (!anchored_.Has(node)) affected.Add(node);
+    }
+  }
+  affected.Sort();
+  return affected.nodes();
+}
+
+void TissueMemory::Keep(const NodeSet& observed, const DeformableMap& map) {
   const int moment = next_moment_++;
   if (moment % stride_ != 0) return;
-  traces_.resize(map.graph().num_nodes());
-  for (int j = 0; j < static_cast<int>(observed.size()); ++j) {
-    if (observed[j] == 0) continue;
-    traces_[j].push_back({moment, NodeTranslation(map.state().node(j))});
+  while (static_cast<int>(traces_.size()) < map.graph().num_nodes()) traces_.emplace_back();
+  nodes_of_moment_.push_back(observed.nodes());
+  for (const int node : observed.nodes()) {
+    traces_[node].push_back({moment, NodeTranslation(map.state().node(node))});
   }
   if (++kept_ > options_.max_moments) Thin();
 }
 
+// All of the map, but only whenever the number of moments has doubled.
 void TissueMemory::Thin() {
   stride_ *= 2;
   kept_ = (next_moment_ - 1) / stride_ + 1;
@@ -80,58 +153,14 @@ void TissueMemory::Thin() {
   for (std::vector<Trace>& trace : traces_) {
     trace.erase(std::remove_if(trace.begin(), trace.end(), goes), trace.end());
   }
+  ListNodes();
 }
 
-std::vector<Eigen::Vector3d> TissueMemory::Recall(const DeformableMap& map,
-                                                  const std::vector<char>& observed) const {
-  const int num_nodes = map.graph().num_nodes();
-  const auto is_observed = [&observed](int j) {
-    return j < static_cast<int>(observed.size()) && observed[j] != 0;
-  };
-  const auto place = [&map](int j, const Eigen::Vector3d& translation) -> Eigen::Vector3d {
-    return map.graph().position(j) + translation;
-  };
-  std::vector<Eigen::Vector3d> recalled(num_nodes);
-  // By moment / stride.
-  std::vector<Comparison> comparisons(next_moment_ / stride_ + 1);
-  for (int j = 0; j < num_nodes; ++j) {
-    recalled[j] = NodeTranslation(map.state().node(j));
-    if (!is_observed(j) || j >= static_cast<int>(traces_.size())) continue;
-    for (const Trace& trace : traces_[j]) {
-      comparisons[trace.moment / stride_].Add(place(j, trace.translation), place(j, recalled[j]));
-    }
-  }
-  double width = options_.likeness * options_.likeness;
-  std::vector<Alignment> alignments;
-  double nearest = std::numeric_limits<double>::infinity();
-  for (const Comparison& c : comparisons) {
-    alignments.push_back(Align(c));
-    if (c.common >= options_.min_common) {
-      nearest = std::min(nearest, alignments.back().difference);
-    }
-  }
-  if (std::isfinite(nearest)) width = std::max(width, nearest);
-  std::vector<double> likeness(comparisons.size(), kLeastLikeness);
-  for (std::size_t k = 0; k < comparisons.size(); ++k) {
-    if (comparisons[k].common == 0) continue;
-    const double share =
-        std::min(1.0, comparisons[k].common / static_cast<double>(options_.min_common));
-    likeness[k] += share * std::exp(-0.5 * alignments[k].difference / width);
-  }
+void TissueMemory::ListNodes() {
+  nodes_of_moment_.assign(kept_, {});
   for (int j = 0; j < static_cast<int>(traces_.size()); ++j) {
-    if (is_observed(j) || traces_[j].empty()) continue;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    double total = 0.0;
-    for (const Trace& trace : traces_[j]) {
-      const Alignment& now_from_then = alignments[trace.moment / stride_];
-      const double weight = likeness[trace.moment / stride_];
-      sum += weight *
-             (now_from_then.rotation * place(j, trace.translation) + now_from_then.translation);
-      total += weight;
-    }
-    recalled[j] = sum / total - map.graph().position(j);
+    for (const Trace& trace : traces_[j]) nodes_of_moment_[trace.moment / stride_].push_back(j);
   }
-  return recalled;
 }
 
 }  // namespace ceres_ed

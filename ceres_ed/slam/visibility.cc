@@ -9,9 +9,6 @@
 namespace ceres_ed {
 namespace {
 
-// Points lie within this many map units (node spacings) of their strongest node.
-constexpr double kReach = 3.0;
-
 // Where a point with z <= 0 is said to be in the picture: nowhere.
 const Eigen::Vector2d kNoPixel = Eigen::Vector2d::Constant(-1e9);
 
@@ -30,17 +27,9 @@ VisiblePoint Look(const DeformableMap& map,
   return seen;
 }
 
-bool InPicture(const PinholeCamera& camera, const Eigen::Vector2d& pixel, double margin) {
-  return pixel.x() >= -0.5 - margin && pixel.y() >= -0.5 - margin &&
-         pixel.x() < camera.width - 0.5 + margin && pixel.y() < camera.height - 0.5 + margin;
-}
-
-// Whether a ball about `center` (camera frame) may reach into the picture.
-bool MayBeSeen(const PinholeCamera& camera, const Eigen::Vector3d& center, double radius) {
-  if (center.z() <= -radius) return false;
-  if (center.z() <= radius) return center.norm() < 4.0 * radius;
-  const double f = std::max(camera.fx, camera.fy);
-  return InPicture(camera, camera.Project(center), 1.5 * f * radius / (center.z() - radius));
+bool InPicture(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
+  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 &&
+         pixel.y() < camera.height - 0.5;
 }
 
 }  // namespace
@@ -51,12 +40,10 @@ std::vector<VisiblePoint> FindVisible(const DeformableMap& map,
                                       const VisibilityOptions& options) {
   std::vector<VisiblePoint> candidates;
   std::vector<double> depths;
-  for (int node = 0; node < map.graph().num_nodes(); ++node) {
-    if (map.points_of_node(node).empty()) continue;
-    if (!MayBeSeen(camera, camera_from_map * map.NodePosition(node), kReach)) continue;
+  for (const int node : map.NodesNearView(ViewVolume(camera_from_map, camera))) {
     for (const int slot : map.points_of_node(node)) {
       VisiblePoint point = Look(map, camera_from_map, camera, slot);
-      if (!InPicture(camera, point.pixel, 0.0)) continue;
+      if (!InPicture(camera, point.pixel)) continue;
       depths.push_back(point.in_camera.z());
       candidates.push_back(point);
     }

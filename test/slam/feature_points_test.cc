@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <test/slam/depth_scenes.h>
+#include <test/slam/map_edits.h>
 #include <test/slam/picture_scenes.h>
 
 namespace ceres_ed {
@@ -47,7 +48,7 @@ double MedianError(const FeaturePoints& features,
 class FeaturePointsTest : public ::testing::Test {
  protected:
   FeaturePointsTest() : surface_(Sheet()), features_(DenseFeatures()) {
-    map_.mutable_state().camera_from_map = Motion(0.4, {1.0, 1.0, 3.0}, {0.5, -1.0, 2.0});
+    map_.SetCamera(Motion(0.4, {1.0, 1.0, 3.0}, {0.5, -1.0, 2.0}));
     GrowMap({}, surface_, ColorImage(), 0, MapGrowthOptions(), &map_);
     features_.Track(
         TexturedPicture({0, 0}, EvenLight), surface_, map_, map_.state().camera_from_map);
@@ -103,7 +104,7 @@ TEST_F(FeaturePointsTest, StayAttachedToAMapThatMoves) {
   const Eigen::Vector3d t(0.3, -0.2, 0.1);
   const std::vector<PointMatch> before = features_.Matches(map_);
   for (int j = 0; j < map_.graph().num_nodes(); ++j) {
-    MutableNodeTranslation(map_.mutable_state().node(j)) += t;
+    EditNode(&map_, j, [&](double* parameters) { MutableNodeTranslation(parameters) += t; });
   }
   const std::vector<PointMatch> after = features_.Matches(map_);
   ASSERT_EQ(before.size(), after.size());

@@ -13,22 +13,28 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <test/slam/map_edits.h>
 
 namespace ceres_ed {
 
-// 14 x 4 nodes, deformed a little, of whose cells the first three columns are seen: 16 PR nodes.
-// Targets are off by more than what the losses give way at.
+// 14 x 4 nodes (or another number of columns), deformed a little, of whose cells the first three
+// columns are seen: 16 PR nodes. Targets are off by more than what the losses give way at.
 struct LevelScene {
-  LevelScene() : problem(MakeTestProblem(Options())) {
+  explicit LevelScene(int columns = 14) : problem(MakeTestProblem(Options(columns))) {
     const DeformationState start = RandomState(problem, 0.05, 9);
     for (int j = 0; j < problem.graph.num_nodes(); ++j) {
       const Eigen::Vector3d g = problem.graph.position(j);
       map.AddNode(g, g + NodeTranslation(start.node(j)), NodeAffine(start.node(j)));
       // Where a node is thought to be isn't where it is.
-      MutableNodeTranslation(map.mutable_state().node(j)) += Eigen::Vector3d(0.02, -0.01, 0.03);
+      SetTranslation(&map, j, NodeTranslation(start.node(j)) + Eigen::Vector3d(0.02, -0.01, 0.03));
+      node_prior.push_back(map.node_prior(j));
     }
-    for (const GraphEdge& edge : problem.graph.edges()) map.mutable_graph().AddEdge(edge);
-    map.mutable_state().camera_from_map = start.camera_from_map;
+    // One of each pair.
+    for (const GraphEdge& edge : problem.graph.edges()) {
+      if (edge.from < edge.to) map.Connect(edge.from, edge.to);
+    }
+    map.SetCamera(start.camera_from_map);
+    observations.camera_prior = start.camera_from_map;
     observations.planes = Take(problem.correspondences);
     // Every third one once more, point to point.
     for (std::size_t k = 0; k < problem.correspondences.size(); k += 3) {
@@ -39,9 +45,9 @@ struct LevelScene {
     observations.feature_width = 0.4;
   }
 
-  static TestProblemOptions Options() {
+  static TestProblemOptions Options(int columns) {
     TestProblemOptions options;
-    options.columns = 14;
+    options.columns = columns;
     options.rows = 4;
     options.points_per_cell = 5;
     options.observed_columns = 3;
@@ -67,7 +73,7 @@ struct LevelScene {
     context.graph = &map.graph();
     context.landmarks = &landmarks;
     context.camera_prior = map.state().camera_from_map;
-    context.node_prior = &map.node_prior();
+    context.node_prior = &node_prior;
     auto builder = std::make_unique<ProblemBuilder>(map.graph(), /*has_camera=*/true);
     const auto add = [&](const std::string& name,
                          double weight,
@@ -96,6 +102,7 @@ struct LevelScene {
   TestProblem problem;
   std::vector<Correspondence> landmarks;
   DeformableMap map;
+  std::vector<Eigen::Vector3d> node_prior;
   // Bindings are those of `problem`.
   FrameObservations observations;
 };

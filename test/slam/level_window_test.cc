@@ -92,25 +92,6 @@ TEST_F(LevelWindowTest, MovesVariableNodesAlone) {
   EXPECT_FALSE(window.Config(false, SeamEdges::kKeep).camera_variable);
 }
 
-TEST_F(LevelWindowTest, WritesVariableNodesBackAlone) {
-  LevelWindow window = builder_.Build(graph_, state_, {8, 4}, {12});
-  for (int i = 0; i < window.state.num_nodes(); ++i) {
-    std::fill_n(window.state.node(i), kNodeSize, 100.0 + i);
-  }
-  window.state.camera_from_map.translation.setConstant(9.0);
-  DeformationState state = state_;
-  WriteBack(window, &state);
-  for (int j = 0; j < state.num_nodes(); ++j) {
-    const double* node = state.node(j);
-    if (j == 8 || j == 4) {
-      EXPECT_EQ(std::count(node, node + kNodeSize, j == 8 ? 100.0 : 101.0), kNodeSize);
-    } else {
-      EXPECT_TRUE(std::equal(node, node + kNodeSize, state_.node(j))) << j;
-    }
-  }
-  EXPECT_EQ(state.camera_from_map.translation, state_.camera_from_map.translation);
-}
-
 TEST_F(LevelWindowTest, ForgetsTheWindowBeforeAndFollowsAGrowingGraph) {
   builder_.Build(graph_, state_, {4}, {});
   DeformationGraph grown = graph_;

@@ -60,7 +60,8 @@ TEST(Levels, LevelOneEqualsThatOfTheWholeGraph) {
       const LevelSummary whole =
           SolveWholeLevelOne(scene, options, LinearSolver::kBlock, &expected);
       const DeformationState before = scene.map.state();
-      const LevelReport report = MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+      const LevelReport report =
+          MakeLevels(options)->SolveLevelOne(scene.observations, nullptr, &scene.map);
       EXPECT_NE(report.status, SolveStatus::kFailed);
       EXPECT_EQ(report.point_relevant, 16);
       EXPECT_EQ(report.variable_nodes, whole.num_variable_nodes);
@@ -79,7 +80,8 @@ TEST(Levels, LevelOneEndsWhereCeresDoes) {
   const LevelsOptions options = ExactLevels(2, SeamEdges::kKeep);
   DeformationState expected = scene.map.state();
   const LevelSummary whole = SolveWholeLevelOne(scene, options, LinearSolver::kCeres, &expected);
-  const LevelReport report = MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+  const LevelReport report =
+      MakeLevels(options)->SolveLevelOne(scene.observations, nullptr, &scene.map);
   EXPECT_NEAR(report.energy, whole.final_cost, 1e-12 * whole.final_cost);
   EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-7);
 }
@@ -88,7 +90,8 @@ TEST(Levels, BothLevelsEqualTheTwoLevelStrategy) {
   for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
     for (const int rings : {0, 2}) {
       LevelScene scene;
-      const LevelsOptions options = ThreeSteps(rings, seam);
+      LevelsOptions options = ThreeSteps(rings, seam);
+      options.level_two = LevelTwoMode::kFull;
       StrategyOptions strategy;
       strategy.mode = SolveMode::kTwoLevel;
       strategy.rings = rings;
@@ -99,8 +102,8 @@ TEST(Levels, BothLevelsEqualTheTwoLevelStrategy) {
           MakeStrategy(strategy)->Solve(*builder, options.solver, &expected);
       ASSERT_EQ(summary.levels.size(), 2u);
       const auto levels = MakeLevels(options);
-      const LevelReport one = levels->SolveLevelOne(scene.observations, &scene.map);
-      const LevelReport two = levels->SolveLevelTwo(&scene.map);
+      const LevelReport one = levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
+      const LevelReport two = levels->SolveLevelTwo(nullptr, &scene.map);
       EXPECT_NEAR(one.energy, summary.levels[0].final_cost, 1e-9 * one.energy);
       EXPECT_NEAR(two.energy, summary.levels[1].final_cost, 1e-9 * two.energy);
       EXPECT_EQ(two.variable_nodes, 14 * 4 - 16);
@@ -116,7 +119,8 @@ TEST(Levels, WithoutRingsToCountEqualTheBatchStrategy) {
   DeformationState expected = scene.map.state();
   const SolveSummary summary =
       MakeStrategy(StrategyOptions())->Solve(*builder, options.solver, &expected);
-  const LevelReport report = MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+  const LevelReport report =
+      MakeLevels(options)->SolveLevelOne(scene.observations, nullptr, &scene.map);
   EXPECT_EQ(report.variable_nodes, 14 * 4);
   EXPECT_NEAR(report.energy, summary.final_energy, 1e-9 * report.energy);
   EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-9);
@@ -128,18 +132,19 @@ TEST(Levels, LeaveHeldNodesAsTheyAreToTheBit) {
     LevelsOptions options;
     options.rings = 1;
     options.seam_edges = seam;
+    options.level_two = LevelTwoMode::kFull;
     const auto levels = MakeLevels(options);
     const DeformationState start = scene.map.state();
-    levels->SolveLevelOne(scene.observations, &scene.map);
+    levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
     const DeformationState after_one = scene.map.state();
     // The nodes of the first four columns see points; one ring more moves.
     for (int j = 0; j < 14 * 4; ++j) {
-      EXPECT_EQ(levels->point_relevant()[j] != 0, j < 16) << j;
-      EXPECT_EQ(levels->moved_nodes()[j] != 0, j < 20) << j;
+      EXPECT_EQ(levels->point_relevant().Has(j), j < 16) << j;
+      EXPECT_EQ(levels->moved_nodes().Has(j), j < 20) << j;
       EXPECT_EQ(SameNode(start, after_one, j), j >= 20) << j;
     }
     EXPECT_FALSE(SameCamera(start, after_one));
-    levels->SolveLevelTwo(&scene.map);
+    levels->SolveLevelTwo(nullptr, &scene.map);
     for (int j = 0; j < 14 * 4; ++j) {
       EXPECT_EQ(SameNode(after_one, scene.map.state(), j), j < 16) << j;
     }
@@ -152,7 +157,7 @@ TEST(Levels, HoldTheCameraWhereItIsGiven) {
   LevelsOptions options;
   options.camera_variable = false;
   const DeformationState start = scene.map.state();
-  MakeLevels(options)->SolveLevelOne(scene.observations, &scene.map);
+  MakeLevels(options)->SolveLevelOne(scene.observations, nullptr, &scene.map);
   EXPECT_TRUE(SameCamera(start, scene.map.state()));
   EXPECT_GT(LargestDifference(start, scene.map.state()), 1e-3);
 }
@@ -162,7 +167,7 @@ TEST(Levels, MoveNothingWhenTheyFail) {
   const DeformationState start = scene.map.state();
   scene.observations.planes[7].target.y() = std::numeric_limits<double>::quiet_NaN();
   const auto levels = MakeLevels(LevelsOptions());
-  const LevelReport report = levels->SolveLevelOne(scene.observations, &scene.map);
+  const LevelReport report = levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
   EXPECT_EQ(report.status, SolveStatus::kFailed);
   EXPECT_EQ(report.variable_nodes, 0);
   EXPECT_EQ(LargestDifference(start, scene.map.state()), 0.0);
@@ -170,8 +175,8 @@ TEST(Levels, MoveNothingWhenTheyFail) {
   // The next frame is none the worse for it.
   LevelScene fresh;
   LevelScene control;
-  levels->SolveLevelOne(fresh.observations, &fresh.map);
-  MakeLevels(LevelsOptions())->SolveLevelOne(control.observations, &control.map);
+  levels->SolveLevelOne(fresh.observations, nullptr, &fresh.map);
+  MakeLevels(LevelsOptions())->SolveLevelOne(control.observations, nullptr, &control.map);
   EXPECT_LT(LargestDifference(fresh.map.state(), control.map.state()), 1e-12);
 }
 
@@ -183,10 +188,123 @@ TEST(Levels, HaveNothingToDoInLevelTwoWhenAllIsSeen) {
     all.push_back({p, scene.problem.points[p], Eigen::Vector3d::UnitZ(), 1.0});
   }
   scene.observations.planes = scene.Take(all);
-  EXPECT_EQ(levels->SolveLevelOne(scene.observations, &scene.map).point_relevant, 14 * 4);
+  EXPECT_EQ(levels->SolveLevelOne(scene.observations, nullptr, &scene.map).point_relevant, 14 * 4);
   const DeformationState after_one = scene.map.state();
-  EXPECT_EQ(levels->SolveLevelTwo(&scene.map).variable_nodes, 0);
+  EXPECT_EQ(levels->SolveLevelTwo(nullptr, &scene.map).variable_nodes, 0);
   EXPECT_EQ(LargestDifference(after_one, scene.map.state()), 0.0);
+}
+
+// A long strip whose seen end heaves: what lazy Level II leaves behind, and what it does when
+// asked.
+class LazyLevelTwoTest : public ::testing::Test {
+ protected:
+  static LevelsOptions Options(LevelTwoMode mode) {
+    LevelsOptions options;
+    options.rings = 1;
+    options.level_two = mode;
+    // So that a wave has something to push.
+    options.node_prior_weight = 0.002;
+    return options;
+  }
+
+  // Targets of frame k.
+  FrameObservations Observations(int k) const {
+    FrameObservations observations = scene_.observations;
+    for (auto* list : {&observations.planes, &observations.features}) {
+      for (MapObservation& o : *list) o.target.z() += 0.15 * std::sin(0.9 * k);
+    }
+    return observations;
+  }
+
+  // Returns the nodes that Level II has moved.
+  int RunFrames(int count, Levels* levels, DeformableMap* map) const {
+    int moved = 0;
+    for (int k = 1; k <= count; ++k) {
+      levels->SolveLevelOne(Observations(k), nullptr, map);
+      moved += levels->SolveLevelTwo(nullptr, map).variable_nodes;
+    }
+    return moved;
+  }
+
+  static double LargestDistance(const DeformableMap& a, const DeformableMap& b) {
+    double largest = 0.0;
+    for (int j = 0; j < a.graph().num_nodes(); ++j) {
+      largest = std::max(largest, (a.NodePosition(j) - b.NodePosition(j)).norm());
+    }
+    return largest;
+  }
+
+  LevelScene scene_{60};
+};
+
+TEST_F(LazyLevelTwoTest, CatchesUpWithFullLevelTwo) {
+  const LevelsOptions options = Options(LevelTwoMode::kLazy);
+  const auto levels = MakeLevels(options);
+  DeformableMap map = scene_.map;
+  RunFrames(6, levels.get(), &map);
+  // From the same state, all PI nodes at once until they are still.
+  DeformableMap settled = map;
+  const auto full = MakeLevels(Options(LevelTwoMode::kFull));
+  DeformableMap unused = map;
+  full->SolveLevelOne(Observations(6), nullptr, &unused);
+  for (int k = 0; k < 30; ++k) full->SolveLevelTwo(nullptr, &settled);
+  const double left_behind = LargestDistance(map, settled);
+  levels->CatchUp(nullptr, &map);
+  const double caught_up = LargestDistance(map, settled);
+  // A tolerance is what a node may be off by for each of its neighbours' doings.
+  EXPECT_GT(left_behind, 2.0 * options.lazy.tolerance);
+  EXPECT_LT(caught_up, 2.0 * options.lazy.tolerance);
+  EXPECT_TRUE(levels->pending().Unsettled().empty() ||
+              levels->point_relevant().Has(levels->pending().Unsettled()[0]));
+}
+
+TEST_F(LazyLevelTwoTest, MovesWhatHasReasonToMoveAndLeavesTheRest) {
+  const auto lazy = MakeLevels(Options(LevelTwoMode::kLazy));
+  const auto full = MakeLevels(Options(LevelTwoMode::kFull));
+  DeformableMap map = scene_.map;
+  DeformableMap other = scene_.map;
+  // At rest ahead of the frames: the scene starts out deformed at random.
+  for (DeformableMap* m : {&map, &other}) {
+    full->SolveLevelOne(Observations(0), nullptr, m);
+    for (int k = 0; k < 30; ++k) full->SolveLevelTwo(nullptr, m);
+  }
+  const DeformationState before = map.state();
+  const int lazy_moved = RunFrames(1, lazy.get(), &map);
+  const int full_moved = RunFrames(1, full.get(), &other);
+  EXPECT_GT(lazy_moved, 0);
+  EXPECT_LT(lazy_moved, full_moved / 4);
+  // The far end has not been looked at.
+  for (int j = 30 * 4; j < 60 * 4; ++j) EXPECT_TRUE(SameNode(before, map.state(), j)) << j;
+}
+
+TEST_F(LazyLevelTwoTest, CatchesUpWhereItIsAsked) {
+  const auto levels = MakeLevels(Options(LevelTwoMode::kLazy));
+  DeformableMap map = scene_.map;
+  RunFrames(3, levels.get(), &map);
+  std::vector<int> unsettled = levels->pending().Unsettled();
+  unsettled.erase(std::remove_if(unsettled.begin(),
+                                 unsettled.end(),
+                                 [&](int node) { return levels->point_relevant().Has(node); }),
+                  unsettled.end());
+  ASSERT_FALSE(unsettled.empty());
+  const int wanted = unsettled.back();
+  levels->CatchUp({wanted}, nullptr, &map);
+  EXPECT_LE(levels->pending().change(wanted), levels->pending().tolerance());
+}
+
+TEST_F(LazyLevelTwoTest, CatchesUpOnACopyWithoutAnEffect) {
+  const auto levels = MakeLevels(Options(LevelTwoMode::kLazy));
+  const auto control = MakeLevels(Options(LevelTwoMode::kLazy));
+  DeformableMap map = scene_.map;
+  DeformableMap expected = scene_.map;
+  RunFrames(3, levels.get(), &map);
+  RunFrames(3, control.get(), &expected);
+  DeformableMap copy = map;
+  levels->CatchUpCopy(nullptr, &copy);
+  EXPECT_GT(LargestDistance(copy, map), 0.0);
+  RunFrames(2, levels.get(), &map);
+  RunFrames(2, control.get(), &expected);
+  EXPECT_EQ(LargestDifference(map.state(), expected.state()), 0.0);
 }
 
 TEST(Levels, CountDataPerNodeWhateverTheirNumber) {
@@ -198,8 +316,8 @@ TEST(Levels, CountDataPerNodeWhateverTheirNumber) {
   features.insert(
       features.end(), once.observations.features.begin(), once.observations.features.end());
   const LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
-  const LevelReport a = MakeLevels(options)->SolveLevelOne(once.observations, &once.map);
-  const LevelReport b = MakeLevels(options)->SolveLevelOne(twice.observations, &twice.map);
+  const LevelReport a = MakeLevels(options)->SolveLevelOne(once.observations, nullptr, &once.map);
+  const LevelReport b = MakeLevels(options)->SolveLevelOne(twice.observations, nullptr, &twice.map);
   EXPECT_NEAR(a.energy, b.energy, 1e-9 * a.energy);
   EXPECT_LT(LargestDifference(once.map.state(), twice.map.state()), 1e-9);
 }
@@ -217,10 +335,10 @@ TEST(Levels, TakeMoreEnergiesByName) {
   LevelScene heavier;
   LevelsOptions exact = ThreeSteps(2, SeamEdges::kKeep);
   exact.energies = {{"rotation", 0.3, {}, {}}};
-  MakeLevels(exact)->SolveLevelOne(more.observations, &more.map);
+  MakeLevels(exact)->SolveLevelOne(more.observations, nullptr, &more.map);
   exact.energies.clear();
   exact.rotation_weight += 0.3;
-  MakeLevels(exact)->SolveLevelOne(heavier.observations, &heavier.map);
+  MakeLevels(exact)->SolveLevelOne(heavier.observations, nullptr, &heavier.map);
   EXPECT_LT(LargestDifference(more.map.state(), heavier.map.state()), 1e-9);
 }
 

@@ -59,7 +59,9 @@ TEST(DeformableSlam, FollowsTissueThatDeforms) {
 }
 
 TEST(DeformableSlam, ReportsWhatItHas) {
-  const SlamRun run(StripSequence(), FastOptions());
+  SlamOptions options = FastOptions();
+  options.levels.level_two = LevelTwoMode::kFull;
+  const SlamRun run(StripSequence(), options);
   int nodes_before = 0;
   for (const FrameReport& report : run.reports) {
     EXPECT_GE(report.nodes, nodes_before);
@@ -81,6 +83,25 @@ TEST(DeformableSlam, ReportsWhatItHas) {
   EXPECT_GT(run.reports.back().nodes, run.reports.front().nodes);
   EXPECT_GT(run.reports.back().updated_pi, 0);
   EXPECT_EQ(run.reports.back().nodes, run.slam->map().graph().num_nodes());
+}
+
+TEST(DeformableSlam, IsVerifiedWithoutAnEffectOnTheRun) {
+  SlamOptions options = FastOptions();
+  const SlamRun plain(StripSequence(), options);
+  options.verify_every = 3;
+  const SlamRun verified(StripSequence(), options);
+  EXPECT_TRUE(Bytes(plain) == Bytes(verified));
+  for (const FrameReport& report : verified.reports) {
+    const BatchComparison& batch = report.batch;
+    ASSERT_EQ(batch.done, report.number > 0 && report.number % 3 == 0) << report.number;
+    if (!batch.done) continue;
+    // Batch is the minimum; two rings come near to it.
+    EXPECT_GE(batch.energy, batch.batch_energy);
+    EXPECT_GT(batch.batch_energy, 0.0);
+    EXPECT_LT(batch.Gap(), 0.05);
+    EXPECT_GE(batch.node_max, batch.node_mean);
+  }
+  EXPECT_FALSE(plain.reports.back().batch.done);
 }
 
 TEST(DeformableSlam, GivesTheSameBytesTwiceAndOnTwoThreads) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <test/slam/map_edits.h>
 
 namespace ceres_ed {
 namespace {
@@ -27,15 +28,25 @@ DeformableMap Row() {
 
 void SetTo(double phase, const Eigen::Vector3d& drift, DeformableMap* map) {
   for (int j = 0; j < kNodes; ++j) {
-    MutableNodeTranslation(map->mutable_state().node(j)) = Breath(j, phase) + drift;
+    SetTranslation(map, j, Breath(j, phase) + drift);
   }
 }
 
 // The first `count` nodes.
-std::vector<char> First(int count) {
-  std::vector<char> observed(kNodes, 0);
-  std::fill_n(observed.begin(), count, 1);
+NodeSet First(int count) {
+  NodeSet observed;
+  for (int j = 0; j < count; ++j) observed.Add(j);
   return observed;
+}
+
+// The prior of every node in a frame that sees the first `count`.
+std::vector<Eigen::Vector3d> Recall(int count, TissueMemory* memory, DeformableMap* map) {
+  memory->BeginFrame(First(count), map);
+  memory->Look(First(count), *map);
+  memory->UpdatePriors(First(kNodes).nodes(), map);
+  std::vector<Eigen::Vector3d> recalled;
+  for (int j = 0; j < kNodes; ++j) recalled.push_back(map->node_prior(j));
+  return recalled;
 }
 
 double Phase(int frame) { return 2.0 * M_PI * frame / 24.0; }
@@ -45,17 +56,17 @@ TissueMemory MemoryOfOneBreath(DeformableMap* map, const TissueMemoryOptions& op
   TissueMemory memory(options);
   for (int frame = 0; frame < 24; ++frame) {
     SetTo(Phase(frame), Eigen::Vector3d::Zero(), map);
-    memory.Keep(*map, First(kNodes));
+    memory.Keep(First(kNodes), *map);
   }
   return memory;
 }
 
 TEST(TissueMemory, RecallsTheHiddenAtTheSamePhase) {
   DeformableMap map = Row();
-  const TissueMemory memory = MemoryOfOneBreath(&map);
+  TissueMemory memory = MemoryOfOneBreath(&map);
   for (const int frame : {25, 30, 36, 43}) {
     SetTo(Phase(frame), Eigen::Vector3d::Zero(), &map);
-    const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+    const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
     for (int j = 40; j < kNodes; ++j) {
       // A neighbouring frame differs by up to 0.07 and is like this one by exp(-0.5).
       EXPECT_LT((recalled[j] - Breath(j, Phase(frame))).norm(), 0.05) << frame << " " << j;
@@ -65,9 +76,9 @@ TEST(TissueMemory, RecallsTheHiddenAtTheSamePhase) {
 
 TEST(TissueMemory, LeavesTheObservedWhereTheyAre) {
   DeformableMap map = Row();
-  const TissueMemory memory = MemoryOfOneBreath(&map);
+  TissueMemory memory = MemoryOfOneBreath(&map);
   SetTo(0.3, {0.1, 0.2, 0.3}, &map);
-  const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+  const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
   for (int j = 0; j < 40; ++j) {
     EXPECT_EQ(recalled[j], Breath(j, 0.3) + Eigen::Vector3d(0.1, 0.2, 0.3));
   }
@@ -76,17 +87,17 @@ TEST(TissueMemory, LeavesTheObservedWhereTheyAre) {
 // The gauge: what the nodes move as one body, the camera gives back.
 TEST(TissueMemory, CarriesACommonMotionOn) {
   DeformableMap map = Row();
-  const TissueMemory memory = MemoryOfOneBreath(&map);
+  TissueMemory memory = MemoryOfOneBreath(&map);
   const Eigen::Quaterniond turn(
       Eigen::AngleAxisd(0.3, Eigen::Vector3d(1.0, -2.0, 0.5).normalized()));
   const Eigen::Vector3d shift(1.0, -2.0, 0.5);
   SetTo(Phase(6), Eigen::Vector3d::Zero(), &map);
-  const std::vector<Eigen::Vector3d> still = memory.Recall(map, First(40));
+  const std::vector<Eigen::Vector3d> still = Recall(40, &memory, &map);
   for (int j = 0; j < kNodes; ++j) {
     const Eigen::Vector3d moved = turn * map.NodePosition(j) + shift;
-    MutableNodeTranslation(map.mutable_state().node(j)) = moved - map.graph().position(j);
+    SetTranslation(&map, j, moved - map.graph().position(j));
   }
-  const std::vector<Eigen::Vector3d> carried = memory.Recall(map, First(40));
+  const std::vector<Eigen::Vector3d> carried = Recall(40, &memory, &map);
   for (int j = 40; j < kNodes; ++j) {
     const Eigen::Vector3d g = map.graph().position(j);
     EXPECT_LT((g + carried[j] - (turn * (g + still[j]) + shift)).norm(), 1e-9);
@@ -99,11 +110,11 @@ TEST(TissueMemory, GivesTheMeanWhereNothingInViewWasKept) {
   for (const double phase : {0.2, 0.6, 1.0}) {
     SetTo(phase, Eigen::Vector3d::Zero(), &map);
     // Only the last nodes, which are hidden later.
-    std::vector<char> observed(kNodes, 0);
-    observed[kNodes - 1] = 1;
-    memory.Keep(map, observed);
+    NodeSet observed;
+    observed.Add(kNodes - 1);
+    memory.Keep(observed, map);
   }
-  const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+  const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
   const Eigen::Vector3d mean =
       (Breath(kNodes - 1, 0.2) + Breath(kNodes - 1, 0.6) + Breath(kNodes - 1, 1.0)) / 3.0;
   EXPECT_LT((recalled[kNodes - 1] - mean).norm(), 1e-12);
@@ -115,10 +126,10 @@ TEST(TissueMemory, ForgetsEverySecondMomentAndRecallsStill) {
   DeformableMap map = Row();
   TissueMemoryOptions few;
   few.max_moments = 12;
-  const TissueMemory memory = MemoryOfOneBreath(&map, few);
+  TissueMemory memory = MemoryOfOneBreath(&map, few);
   for (const int frame : {26, 36, 42}) {
     SetTo(Phase(frame), Eigen::Vector3d::Zero(), &map);
-    const std::vector<Eigen::Vector3d> recalled = memory.Recall(map, First(40));
+    const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
     // Moments stand twice as far apart.
     EXPECT_LT((recalled[kNodes - 1] - Breath(kNodes - 1, Phase(frame))).norm(), 0.1) << frame;
   }

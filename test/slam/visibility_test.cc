@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 #include <test/slam/depth_scenes.h>
+#include <test/slam/map_edits.h>
 
 namespace ceres_ed {
 namespace {
@@ -201,8 +202,10 @@ TEST(UpdateVisible, FollowsNodesAndCamera) {
   const Eigen::Matrix3d B =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()).toRotationMatrix();
   const Eigen::Vector3d t(0.2, -0.1, 0.5);
-  MutableNodeAffine(map.mutable_state().node(0)) = B;
-  MutableNodeTranslation(map.mutable_state().node(0)) = t;
+  EditNode(&map, 0, [&](double* parameters) {
+    MutableNodeAffine(parameters) = B;
+    MutableNodeTranslation(parameters) = t;
+  });
   const CameraPose camera = Motion(0.1, {0.0, 1.0, 0.0}, {0.3, 0.0, 0.2});
   UpdateVisible(map, camera, SmallCamera(), &points);
   ASSERT_EQ(points.size(), 81u);
