@@ -95,6 +95,11 @@ TEST(DroppedTranslations, AtTheSeamStepLikeLevelsThatShareItsEdgesOut) {
   EXPECT_EQ(matrix(c, f).cwiseAbs().maxCoeff(), 0.0);
   EXPECT_GT(Normal(band.Linearize(start, Dropped::kNowhere))(c, f).cwiseAbs().maxCoeff(), 1.0);
   const DeformationState stepped = band.Plus(start, Step(matrix, Gradient(dense)));
+  // What changes this gradient is no Hessian: it isn't symmetric, so that there is no energy of
+  // which this is the gradient.
+  const MatrixXd change =
+      dense.jacobian.transpose() * band.Linearize(start, Dropped::kNowhere).jacobian;
+  EXPECT_GT((change - change.transpose()).cwiseAbs().maxCoeff(), 1.0);
 
   // Level I with the seam's edges that PR nodes have kept and those that PI nodes have cut; Level
   // II the other way round, and from PR nodes where they were before Level I.
@@ -309,6 +314,9 @@ TEST(DroppedTranslations, EverywhereLeaveHiddenNodesOnTheirOwn) {
   const MatrixXd exact = band.Linearize(batch, Dropped::kNowhere).jacobian;
   const MatrixXd change = MatrixXd::Identity(matrix.rows(), matrix.cols()) -
                           matrix.ldlt().solve(MatrixXd(dense.jacobian.transpose() * exact));
+  const double largest = Ratios(exact.transpose() * exact, matrix).maxCoeff();
+  RecordProperty("largest_ratio_half_seen", std::to_string(largest));
+  EXPECT_GT(largest, 2.0);
   RecordProperty("radius", std::to_string(LargestRadius(change)));
   EXPECT_GT(LargestRadius(change), 1.0);
 }
