@@ -155,26 +155,28 @@ class LongRun:
         return next(i for i, row in enumerate(self.rows) if row["nodes"] >= size)
 
 
-def beside(options, scheme, long_run, begin, checkpoint):
+def beside(options, scheme, long_run, begin, index, checkpoint):
     """Runs a scheme on the frames from a checkpoint of the default one on; returns its figures.
 
-    `checkpoint` is a copy of that run's folder after `begin` frames; where there is none the
-    scheme has to start with the first frame.
+    `checkpoint` is a copy of that run's folder after `begin` frames; with none, of a small map, the
+    scheme starts with the first frame and goes on to frame `index`.
     """
     output = options.work / "strip_beside"
     shutil.rmtree(output, ignore_errors=True)
-    flags = [f"--last={begin + options.beside - 1}", "--live_every=0",
+    end = begin + options.beside if begin else index + 1
+    flags = [f"--last={end - 1}", "--live_every=0",
              f"--checkpoint_every={options.checkpoint_every}"]
     if begin:
         shutil.copytree(checkpoint, output)
         flags.append("--resume")
     rows, note = slam(options, scheme, long_run.sequence, output, flags, options.budget_s)
     # The first of them also sets up what later ones share.
-    mine = rows[begin + 1:]
-    if note is None and len(rows) < begin + options.beside:
-        note = f"{max(0, len(rows) - begin)} frames within {options.budget_s:.0f} s"
+    first = max(begin + 1, end - options.beside)
+    mine = rows[first:]
+    if note is None and len(rows) < end:
+        note = f"{max(0, len(rows) - begin)} of {end - begin} frames within {options.budget_s:.0f} s"
     return {"scheme": scheme.name, "begin": begin, "note": note, "times": times(mine),
-            "default": times(long_run.rows[begin + 1:begin + 1 + max(1, len(mine))])}
+            "default": times(long_run.rows[first:first + max(1, len(mine))])}
 
 
 def growth(options, sequence, total_frames, schemes):
@@ -200,7 +202,7 @@ def growth(options, sequence, total_frames, schemes):
         record["beside"] = []
         for scheme in schemes:
             if record["reached"] and scheme.name not in options.given_up:
-                figures = beside(options, scheme, long_run, begin, checkpoint)
+                figures = beside(options, scheme, long_run, begin, index, checkpoint)
                 record["beside"].append(figures)
                 if figures["times"] is None:
                     # What is too much at one size is so at the next.
