@@ -4,6 +4,7 @@ import os
 import shlex
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
@@ -47,16 +48,25 @@ def default_folders():
     return [ROOT / "data"] + ([Path(extra)] if extra else [])
 
 
-def run(command, log):
-    """Runs a program; returns its wall seconds, CPU seconds and peak megabytes."""
+def run(command, log, accepted=(0,), kill_after_s=None):
+    """Runs a program; returns its wall seconds, CPU seconds and peak megabytes.
+
+    Other exit codes than those `accepted` are failures, and so is a program that is still running
+    after `kill_after_s`: it is killed.
+    """
     with open(log, "wb") as stderr:
         start = time.monotonic()
         child = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL,
                                  stderr=stderr)
+        killer = threading.Timer(kill_after_s, child.kill) if kill_after_s else None
+        if killer:
+            killer.start()
         _, status, usage = os.wait4(child.pid, 0)
+        if killer:
+            killer.cancel()
         wall = time.monotonic() - start
     child.returncode = os.waitstatus_to_exitcode(status)
-    if child.returncode != 0:
+    if child.returncode not in accepted:
         last = Path(log).read_text(errors="replace").strip().splitlines()[-1:] or ["no message"]
         raise RunFailed(f"{shlex.join(map(str, command))}\n  exit code {child.returncode}: {last[0]}")
     return wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024.0

@@ -63,9 +63,10 @@ def simulate(ed_simulate, scene, flags, cache, fresh=False):
 
 
 def read_frames(output):
-    """Returns the rows of frames.csv: status and frame as they are, all else numbers."""
+    """Returns the rows of frames.csv: status as it is, all else numbers, NaN where none stands."""
     with open(output / "frames.csv", newline="") as file:
-        return [{key: value if key == "status" else float(value) for key, value in row.items()}
+        return [{key: value if key == "status" else float(value or "nan")
+                 for key, value in row.items()}
                 for row in csv.DictReader(file)]
 
 

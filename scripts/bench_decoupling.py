@@ -1,0 +1,227 @@
+#!/usr/bin/env python3
+"""Measures what decoupling loses and saves: the energy against batch's, time against the map.
+
+Two parts, each of which can be made alone (--only) and then joins what the other left in --work:
+
+  strip  a camera along a long band, 320 x 240, with about 300 nodes in view. Of the frames up to
+         each of --sizes nodes: median time of the last 50, whole (t_total of frames.csv: all but
+         reading and writing) and by stage, their ratio from the first size to the last, and the
+         slope of log time over log nodes. Beside it batch, marginal and the paper's scheme (no
+         rings, all of level II) take a few frames from the default run's last checkpoint before
+         the size: milliseconds, and in brackets those of the default run on the same frames. Each
+         has --budget_s; what fails or gets no frame is said, and not tried at larger sizes
+  gap    whole sequences: a strip of --gap_nodes nodes, and the organs. Each scheme: median time of
+         the last 50 frames, relative to batch's; energy above that of a batch solve of the same
+         frame (--verify_every of ed_slam: median and largest); and errors by ed_eval, means: of
+         seen map points to the true surface, of tracking, seen and hidden
+
+Schemes of gap: batch, marginal, default, the paper's with both seams, and 0, 2, 4, 8 rings by
+keep/cut by lazy/full. Frames that are verified don't count for times. Always one thread, one run at
+a time. Writes decoupling.png, decoupling.md and what each part found to --work; sequences that it
+has are used again. Needs python3-numpy and python3-matplotlib. Exits with 1 where the default or
+the batch run fails, with 2 on a wrong call; other failures stand in the tables.
+
+  scripts/bench_decoupling.py
+  scripts/bench_decoupling.py --quick --work=/tmp/decoupling
+  scripts/bench_decoupling.py --only=strip --sizes=1000,3000,10000
+  scripts/bench_decoupling.py --readme=README.md       # and its figure into scripts/images/
+"""
+import argparse
+import json
+import math
+import shlex
+import shutil
+import sys
+import time
+from pathlib import Path
+
+# First of those that need numpy and matplotlib: it says so where they are missing.
+import mesh_picture  # noqa: F401
+from bench_tables import check_marks, write_between
+from decoupling_gaps import gaps
+from decoupling_runs import BATCH, DEFAULT, MARGINAL, PAPER_CUT, PAPER_KEEP, growth
+from decoupling_tables import draw, gap_lines, growth_lines
+from program_runs import PROGRAM, ROOT, RunFailed, wrong_call
+from sequence_runs import SCENES, simulate
+
+BEGIN, END = "<!-- bench_decoupling.py: begin -->", "<!-- bench_decoupling.py: end -->"
+PARTS = ("strip", "gap")
+PICTURE = "decoupling.png"
+# What ed_simulate takes as the nodes of a view; nodes_in_view below gives that many PR nodes.
+NODES_OF_VIEW = 300
+NODES_IN_VIEW = 430
+# A strip is so much longer than the map asks for.
+SPARE = 1.05
+
+
+def parse_options():
+    parser = argparse.ArgumentParser(description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--bin", type=Path, default=ROOT / "build/release/apps", metavar="DIR",
+                        help="folder of the programs [build/release/apps]")
+    parser.add_argument("--work", type=Path, default=ROOT / "build/decoupling", metavar="DIR",
+                        help="sequences, runs, results and the figure [build/decoupling]")
+    parser.add_argument("--only", default=",".join(PARTS), metavar="PARTS",
+                        help="parts to make, with commas between [strip,gap]")
+    parser.add_argument("--sizes", default="1000,3000,10000,30000,50000", metavar="N,...",
+                        help="nodes of the map [1000,3000,10000,30000,50000]")
+    parser.add_argument("--speed", type=float, default=0.05, metavar="SHARE",
+                        help="of the view that the camera moves in a frame of strip [0.05: 6 mm]")
+    parser.add_argument("--nodes_in_view", type=int, default=NODES_IN_VIEW, metavar="N",
+                        help=f"flag of ed_slam [{NODES_IN_VIEW}: about 300 PR nodes]")
+    parser.add_argument("--beside", type=int, default=10, metavar="N",
+                        help="frames of the other schemes at each size [10]")
+    parser.add_argument("--budget_s", type=float, default=600.0, metavar="S",
+                        help="for each of these runs, and for each run of gap [600]")
+    parser.add_argument("--checkpoint_every", type=int, default=50, metavar="N",
+                        help="frames between checkpoints of strip [50]")
+    parser.add_argument("--gap_nodes", type=int, default=2000, metavar="N",
+                        help="of the strip in gap [2000]")
+    parser.add_argument("--scenes", default="strip,heart,kidney,stomach", metavar="NAMES",
+                        help="of gap [strip,heart,kidney,stomach]")
+    parser.add_argument("--verify_every", type=int, default=10, metavar="N",
+                        help="flag of ed_slam in gap; 0 leaves it out [10]")
+    parser.add_argument("--flags", default="", help="more flags of ed_slam, of all runs [none]")
+    parser.add_argument("--fresh", action="store_true", help="simulate again what --work holds")
+    parser.add_argument("--quick", action="store_true",
+                        help="small maps and few schemes: to see that everything works")
+    parser.add_argument("--json", metavar="FILE", help="also write all figures and options there")
+    parser.add_argument("--readme", metavar="FILE",
+                        help="also put tables and command between the marks of this README.md and "
+                        "the figure into images/ beside this script")
+    options = parser.parse_args()
+    # What a reader has to say to get the same.
+    options.said = {key: value for key, value in vars(options).items()
+                    if value != parser.get_default(key)
+                    and key not in ("bin", "work", "only", "fresh", "json", "readme")}
+    check(options, parser)
+    return options
+
+
+def check(options, parser):
+    """Ends the program on a wrong call; turns lists into lists and settles sizes."""
+    options.only = [name for name in options.only.split(",") if name]
+    if not options.only or set(options.only) - set(PARTS):
+        parser.error(f"--only={','.join(options.only)}, expected some of {', '.join(PARTS)}")
+    options.scenes = [name for name in options.scenes.split(",") if name]
+    if set(options.scenes) - set(SCENES):
+        parser.error(f"--scenes={','.join(options.scenes)}, expected some of {', '.join(SCENES)}")
+    options.slam_flags = shlex.split(options.flags)
+    options.simulate_flags = ["--width=320", "--height=240"]
+    options.live_every = 5
+    options.given_up = {}
+    if options.quick:
+        if options.readme:
+            parser.error("--readme takes no --quick")
+        options.sizes, options.nodes_in_view, options.gap_nodes = "300,600,900", 140, 400
+        options.checkpoint_every, options.beside = 10, 5
+        options.verify_every = min(options.verify_every, 5)
+        options.budget_s = min(options.budget_s, 40.0)
+        options.scenes = options.scenes[:2]
+        options.simulate_flags = ["--width=160", "--height=120"]
+    try:
+        options.sizes = sorted({int(size) for size in options.sizes.split(",")})
+    except ValueError:
+        parser.error(f"--sizes={options.sizes}, expected whole numbers with commas between")
+    for name, lowest in (("beside", 2), ("budget_s", 1.0), ("checkpoint_every", 2),
+                         ("gap_nodes", NODES_OF_VIEW), ("nodes_in_view", 4), ("verify_every", 0)):
+        if getattr(options, name) < lowest:
+            parser.error(f"--{name}={getattr(options, name)}, expected {lowest} or more")
+    if not 0.001 <= options.speed <= 0.3:
+        parser.error(f"--speed={options.speed}, expected 0.001 to 0.3")
+    if options.sizes[0] < 1:
+        parser.error(f"--sizes: {options.sizes[0]}, expected 1 or more")
+    if options.readme:
+        check_marks(options.readme, BEGIN, END)
+    for program in ("ed_slam", "ed_simulate", "ed_eval"):
+        if not (options.bin / program).exists():
+            wrong_call(f"{options.bin / program} is not there; build it or name its folder")
+
+
+def make_strip(options, nodes, flags):
+    """Returns a strip on which a map comes to have `nodes` nodes, and how many frames it has."""
+    per_view = NODES_OF_VIEW * options.nodes_in_view / NODES_IN_VIEW
+    views = max(1.0 + options.speed, SPARE * nodes / per_view)
+    frames = math.ceil((views - 1.0) / options.speed) + 1
+    hint = max(NODES_OF_VIEW, math.ceil(views * NODES_OF_VIEW))
+    return simulate(options.bin / "ed_simulate", "strip",
+                    [f"--nodes_hint={hint}", f"--frames={frames}", *options.simulate_flags, *flags],
+                    options.work / "sequences", options.fresh), frames
+
+
+def make_strip_part(options):
+    options.say(f"simulating a strip for {options.sizes[-1]} nodes")
+    # The truth of every vertex in every frame would take tens of gigabytes.
+    sequence, frames = make_strip(options, options.sizes[-1], ["--truth=false"])
+    records = growth(options, sequence, frames, [BATCH, MARGINAL, PAPER_KEEP, PAPER_CUT])
+    return records, any(not record["reached"] for record in records)
+
+
+def make_gap_part(options):
+    sequences = []
+    for scene in options.scenes:
+        options.say(f"simulating {scene}")
+        if scene == "strip":
+            sequences.append(make_strip(options, options.gap_nodes, [])[0])
+            continue
+        frames = ["--frames=12"] if options.quick else []
+        sequences.append(simulate(options.bin / "ed_simulate", scene,
+                                  frames + options.simulate_flags, options.work / "sequences",
+                                  options.fresh))
+    rows = gaps(options, sequences)
+    needed = (BATCH.name, DEFAULT.name)
+    return rows, any(row["note"] and row["scheme"] in needed for row in rows)
+
+
+def result_of(options, part):
+    """Makes a part, or returns what an earlier run left of it; and whether it failed."""
+    path = options.work / f"{part}.json"
+    if part in options.only:
+        result, failed = {"strip": make_strip_part, "gap": make_gap_part}[part](options)
+        path.write_text(json.dumps(result, indent=1) + "\n")
+        return result, failed
+    return (json.loads(path.read_text()) if path.exists() else []), False
+
+
+def page_of(records, rows, options):
+    words = [f"--{key}" if value is True else f"--{key}={value}"
+             for key, value in options.said.items()]
+    parts = [f"`{shlex.join(['scripts/bench_decoupling.py', *words])}`:"]
+    if records:
+        parts.append("\n".join(growth_lines(records)))
+    if rows:
+        parts.append("\n".join(gap_lines(rows)))
+    return "\n\n".join(parts)
+
+
+def main():
+    options = parse_options()
+    start = time.monotonic()
+    def say(text):
+        print(f"[{time.monotonic() - start:4.0f} s] {text}", file=sys.stderr)
+    options.say = say
+    options.work.mkdir(parents=True, exist_ok=True)
+    try:
+        records, strip_failed = result_of(options, "strip")
+        rows, gap_failed = result_of(options, "gap")
+    except RunFailed as error:
+        print(f"{PROGRAM}: {error}", file=sys.stderr)
+        return 1
+    page = page_of(records, rows, options)
+    print(page)
+    draw(records, rows, options.work / PICTURE)
+    (options.work / "decoupling.md").write_text(page + "\n")
+    if options.json:
+        Path(options.json).write_text(json.dumps({"options": options.said, "strip": records,
+                                                  "gap": rows}, indent=1) + "\n")
+    failed = strip_failed or gap_failed
+    if options.readme and failed:
+        print(f"{PROGRAM}: a run failed, {options.readme} stays as it is", file=sys.stderr)
+    elif options.readme:
+        write_between(options.readme, BEGIN, END, page)
+        shutil.copy(options.work / PICTURE, ROOT / "scripts/images" / PICTURE)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
