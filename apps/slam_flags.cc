@@ -69,7 +69,7 @@ DEFINE_int32(live_every, Defaults().live_every, "write every n-th live cloud; 0 
 DEFINE_int32(checkpoint_every,
              Defaults().checkpoint_every,
              "frames between checkpoints; 0 = only the results, at the end");
-DEFINE_bool(resume, Defaults().resume, "go on from the last checkpoint in --output, same flags");
+DEFINE_bool(resume, Defaults().resume, "go on from the last checkpoint in --output");
 DEFINE_string(features,
               NameOf(ceres_ed::kFeatures, Defaults().options.features),
               "auto: follow corners of the colour images; none");
@@ -198,15 +198,43 @@ Status CheckEnergies(const SlamSettings& settings, const EnergyRegistry& registr
   return Status::Ok();
 }
 
-std::string ResultFlags() {
-  const std::set<std::string> without_effect = {
-      "output", "resume", "threads", "time_limit_s", "progress", "quiet"};
+namespace {
+
+// Flags of which `wanted(name)`, a line each.
+template <typename Wanted>
+std::string FlagLines(Wanted wanted) {
   std::string lines;
   for (const auto& flag : OwnFlags()) {
-    if (without_effect.count(flag.name) > 0) continue;
-    lines += "--" + flag.name + "=" + CurrentValue(flag.name) + "\n";
+    if (wanted(flag.name)) lines += "--" + flag.name + "=" + CurrentValue(flag.name) + "\n";
   }
   return lines;
+}
+
+// How the levels are solved: a run may go on another way.
+const std::set<std::string>& StrategyNames() {
+  static const std::set<std::string> names = {"mode", "rings", "boundary", "level2"};
+  return names;
+}
+
+}  // namespace
+
+std::string FixedFlags() {
+  const std::set<std::string> free = {"output",
+                                      "resume",
+                                      "threads",
+                                      "time_limit_s",
+                                      "progress",
+                                      "quiet",
+                                      "last",
+                                      "checkpoint_every",
+                                      "verify_every"};
+  return FlagLines([&free](const std::string& name) {
+    return free.count(name) == 0 && StrategyNames().count(name) == 0;
+  });
+}
+
+std::string StrategyFlags() {
+  return FlagLines([](const std::string& name) { return StrategyNames().count(name) > 0; });
 }
 
 std::string SlamModeName(SolveMode mode) { return NameOf(kModes, mode); }

@@ -38,9 +38,10 @@ StatusOr<SlamSettings> ReadSlamFlags();
 // Error: an energy of --energy that `registry` doesn't know, or a parameter that it doesn't take.
 Status CheckEnergies(const SlamSettings& settings, const EnergyRegistry& registry);
 
-// Returns a line `--name=value` for each flag that the result depends on: a run is resumed with the
-// same ones.
-std::string ResultFlags();
+// Return a line `--name=value` for each flag that a run is resumed with as it was, and for each
+// that says how the levels are solved: these may change on the way, the map is the same in kind.
+std::string FixedFlags();
+std::string StrategyFlags();
 
 // "batch" or "two_level"; "estimate", "fixed" or "given".
 std::string SlamModeName(SolveMode mode);

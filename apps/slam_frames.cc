@@ -71,7 +71,7 @@ std::string FramesRow(const FrameRecord& record) {
     // Clocks know no more than microseconds.
     const double value = is_time ? std::round(record.values[i] * 1e6) / 1e6 : record.values[i];
     std::string text;
-    AppendNumbers({value}, &text);
+    if (!std::isnan(value)) AppendNumbers({value}, &text);
     row += "," + text;
   }
   return row + "\n";

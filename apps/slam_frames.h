@@ -14,6 +14,7 @@ namespace ceres_ed {
 
 // Columns behind frame and status; scripts rely on the names and, up to energy, on their order.
 // Seconds, metres, counts; t_total is all of a frame but t_load (reading and decoding) and t_write.
+// Not a number, an empty cell: not known of this frame.
 inline constexpr std::array<const char*, 30> kFrameColumns = {
     "t_total",         "t_load",
     "t_associate",     "t_camera",

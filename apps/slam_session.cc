@@ -223,8 +223,10 @@ Status SlamSession::WriteCheckpoint() {
   Status status = WriteResults(run);
   if (!status.ok()) return status;
   CheckpointWriter writer;
-  std::string flags = ResultFlags();
+  std::string flags = FixedFlags();
   writer.Text("flags", &flags);
+  std::string strategy = StrategyFlags();
+  writer.Text("strategy", &strategy);
   writer.Value("next", &next_);
   std::string frames = FramesKey();
   writer.Text("frames_key", &frames);
@@ -243,13 +245,14 @@ Outcome SlamSession::Resume(const std::string& path) {
   const StatusOr<std::unique_ptr<CheckpointReader>> reader = CheckpointReader::Open(*bytes);
   if (!reader.ok()) return bad(reader.status());
   CheckpointReader* archive = reader->get();
-  std::string flags, frames;
+  std::string flags, frames, strategy;
   archive->Text("flags", &flags);
+  archive->Text("strategy", &strategy);
   archive->Text("frames_key", &frames);
   archive->Value("next", &next_);
   if (!archive->status().ok()) return bad(archive->status());
-  if (flags != ResultFlags()) {
-    return Outcome::Usage("--resume with " + FirstDifference(ResultFlags(), flags) + " as in " +
+  if (flags != FixedFlags()) {
+    return Outcome::Usage("--resume with " + FirstDifference(FixedFlags(), flags) + " as in " +
                           path);
   }
   if (next_ < 1 || next_ > sequence_.num_frames()) {
@@ -263,6 +266,12 @@ Outcome SlamSession::Resume(const std::string& path) {
   }
   ExchangeProgress(archive);
   if (!archive->status().ok()) return bad(archive->status());
+  if (strategy != StrategyFlags()) {
+    warnings_->Add("resume",
+                   "went on after frame " + std::to_string(sequence_.frame_number(next_ - 1)) +
+                       " with " + FirstDifference(StrategyFlags(), strategy) +
+                       " for the bytes of one run");
+  }
   if (tracked_.size() > 0) points_.clear();
   StatusOr<std::unique_ptr<SlamOutput>> output =
       SlamOutput::Reopen(settings_.output, sequence_.camera(), archive);

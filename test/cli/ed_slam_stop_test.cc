@@ -153,6 +153,10 @@ TEST_F(EdSlamStopTest, ResumeRefusesOtherFlagsOtherFramesAndDamage) {
   EXPECT_EQ(flags.exit_code, 1);
   EXPECT_THAT(flags.err, HasSubstr("--resume with --w_reg=0.5, expected --w_reg=0.1 as in "));
 
+  const ProgramResult live = RunTracked("out", {"--resume", "--live_every=3"});
+  EXPECT_EQ(live.exit_code, 1);
+  EXPECT_THAT(live.err, HasSubstr("--live_every=3, expected --live_every="));
+
   const std::string last = Sequence() + "/depth/" + FrameName(19, "png");
   const std::string depth = ReadBytes(last);
   ASSERT_TRUE(WriteDepthImage(last, BumpyScene().RenderDepth(3), 50000.0).ok());
@@ -173,6 +177,20 @@ TEST_F(EdSlamStopTest, ResumeRefusesOtherFlagsOtherFramesAndDamage) {
   const ProgramResult cut = RunTracked("out", {"--resume"});
   EXPECT_EQ(cut.exit_code, 2);
   EXPECT_THAT(cut.err, HasSubstr("frames.csv: has 6 bytes, expected the "));
+}
+
+TEST_F(EdSlamStopTest, ResumeTakesAnotherStrategyAndSaysSo) {
+  ASSERT_EQ(RunTracked("out", {"--last=9"}).exit_code, 0);
+  const std::string before = ReadBytes(dir_ / "out/frames.csv");
+  const ProgramResult batch = RunTracked("out", {"--resume", "--mode=batch", "--verify_every=19"});
+  EXPECT_EQ(batch.exit_code, 0);
+  EXPECT_THAT(
+      batch.err,
+      HasSubstr("went on after frame 9 with --mode=batch, expected --mode=two_level for the "
+                "bytes of one run"));
+  const std::string after = ReadBytes(dir_ / "out/frames.csv");
+  EXPECT_EQ(after.substr(0, before.size()), before);
+  EXPECT_EQ(std::count(after.begin(), after.end(), '\n'), 25);
 }
 
 }  // namespace
