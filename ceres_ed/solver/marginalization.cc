@@ -131,7 +131,9 @@ void Marginalization::UpdateStructure() {
   // The factor refers to the structure: it goes first.
   cholesky_.reset();
   structure_ = std::make_unique<BlockStructure>(equations_->BlockSizes(), pairs_);
-  cholesky_ = std::make_unique<BlockCholesky>(*structure_, static_cast<int>(seam_.size()));
+  if (!eliminated_.empty()) {
+    cholesky_ = std::make_unique<BlockCholesky>(*structure_, static_cast<int>(seam_.size()));
+  }
   CHECK(equations_->SetStructure(structure_.get()));
 }
 
@@ -146,7 +148,7 @@ bool Marginalization::Linearize(const DeformationState& state, int num_threads) 
 }
 
 bool Marginalization::Eliminate(double damping) {
-  CHECK(has_values_) << "Linearize comes first";
+  CHECK(has_values_ && cholesky_ != nullptr) << "Linearize comes first, with nodes to eliminate";
   const ScopedSerialLinearAlgebra serial;
   const int num_rows = num_eliminated_rows();
   Eigen::VectorXd diagonal = structure_->Diagonal(values_);
@@ -161,6 +163,7 @@ bool Marginalization::Eliminate(double damping) {
   has_factor_ = cholesky_->Factorize(values_.data(), diagonal);
   if (!has_factor_) return false;
   damping_ = damping;
+  ++num_eliminations_;
   is_fresh_ = true;
   factor_origin_ = origin_;
   seam_factor_ = cholesky_->TrailingFactor();

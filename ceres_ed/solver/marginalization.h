@@ -58,6 +58,8 @@ class Marginalization {
   // Whether there is a factor over the present nodes.
   bool has_factor() const { return has_factor_; }
   double damping() const { return damping_; }
+  // Factorisations so far.
+  int num_eliminations() const { return num_eliminations_; }
   // Whether the factor is that of the last linearisation and not of an earlier one.
   bool is_fresh() const { return is_fresh_; }
 
@@ -129,6 +131,7 @@ class Marginalization {
   bool has_factor_ = false;
   bool is_fresh_ = false;
   double damping_ = 0.0;
+  int num_eliminations_ = 0;
   // The seam's part of the factor, of the prior's Hessian plus `shift_` on its diagonal.
   Eigen::MatrixXd seam_factor_;
   double shift_ = 0.0;
