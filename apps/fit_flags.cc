@@ -15,7 +15,8 @@ struct Choice {
   T value;
 };
 constexpr Choice<SolveMode> kModes[] = {{"batch", SolveMode::kBatch},
-                                        {"two_level", SolveMode::kTwoLevel}};
+                                        {"two_level", SolveMode::kTwoLevel},
+                                        {"marginal", SolveMode::kMarginal}};
 constexpr Choice<SeamEdges> kBoundaries[] = {{"keep", SeamEdges::kKeep}, {"cut", SeamEdges::kCut}};
 
 constexpr Choice<LinearSolver> kLinearSolvers[] = {{"ceres", LinearSolver::kCeres},
@@ -60,10 +61,11 @@ using ceres_ed::Defaults;
 DEFINE_string(output, "", "PLY to write: SOURCE fitted, all else of it kept; required");
 DEFINE_string(mode,
               ceres_ed::NameOf(ceres_ed::kModes, Defaults().strategy.mode),
-              "batch: all nodes at once; two_level: observed ones first, then the rest");
+              "batch: all nodes at once; two_level: observed ones first, then the rest; "
+              "marginal: as batch, the rest eliminated");
 DEFINE_int32(rings,
              Defaults().strategy.rings,
-             "two_level: rings of unobserved nodes that level I moves too");
+             "two_level, marginal: rings of unobserved nodes that level I moves too");
 DEFINE_string(boundary,
               ceres_ed::NameOf(ceres_ed::kBoundaries, Defaults().strategy.seam_edges),
               "two_level: keep or cut edges across the seam of level I");
@@ -146,11 +148,6 @@ Status CheckOutputNames(const FitSettings& settings) {
 }
 
 Status ReadChoices(FitOptions* options) {
-  if (FLAGS_mode == "marginal") {
-    return Status::Error(
-        "--mode=marginal is not available in this version, expected batch or "
-        "two_level");
-  }
   Status status = Choose("mode", kModes, FLAGS_mode, &options->strategy.mode);
   if (!status.ok()) return status;
   status = Choose("boundary", kBoundaries, FLAGS_boundary, &options->strategy.seam_edges);

@@ -92,7 +92,7 @@ ordered_json DisplacementReport(const FitRun& run) {
 
 ordered_json TimeReport(const FitRun& run) {
   const FitTimes& times = run.result->times;
-  const bool has_levels = run.settings->options.strategy.mode == SolveMode::kTwoLevel;
+  const bool has_levels = run.settings->options.strategy.mode != SolveMode::kBatch;
   return {{"total", run.total_s},
           {"load", run.load_s},
           {"rigid", times.rigid},

@@ -46,6 +46,22 @@ bool IsVariable(const BlockRef& block, const ProblemConfig& config) {
                                              : config.camera_variable;
 }
 
+bool IsEliminated(const BlockRef& block, const ProblemConfig& config) {
+  return block.kind == BlockRef::Kind::kNode && !config.eliminated_nodes.empty() &&
+         config.eliminated_nodes[block.node] != 0;
+}
+
+// Whether a residual on these blocks is part of the problem; `cut` leaves it out where it crosses
+// the seam.
+bool IsIncluded(const BlockRef* blocks, int num_blocks, bool cut, const ProblemConfig& config) {
+  int num_variable = 0;
+  for (int i = 0; i < num_blocks; ++i) {
+    if (IsEliminated(blocks[i], config)) return false;
+    if (IsVariable(blocks[i], config)) ++num_variable;
+  }
+  return num_variable > 0 && !(cut && num_variable < num_blocks);
+}
+
 ceres::Problem::Options ProblemOptions() {
   ceres::Problem::Options options;
   options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -165,35 +181,36 @@ std::vector<char> ProblemBuilder::PointRelevantNodes() const {
   return relevant;
 }
 
-bool ProblemBuilder::IsIncluded(const Term& term,
-                                const Residual& residual,
-                                const ProblemConfig& config) const {
-  if (term.weight == 0.0 || residual.weight == 0.0) return false;
-  int num_variable = 0;
-  for (int i = 0; i < residual.num_blocks; ++i) {
-    if (IsVariable(term.blocks[residual.first_block + i], config)) ++num_variable;
-  }
-  if (num_variable == 0) return false;
-  const bool crosses_seam = num_variable < residual.num_blocks;
-  return !(crosses_seam && term.kind == EnergyKind::kPrior && config.seam_edges == SeamEdges::kCut);
-}
-
 std::vector<SelectedResidual> ProblemBuilder::Select(const ProblemConfig& config) const {
-  CHECK_EQ(static_cast<int>(config.variable_nodes.size()), graph_.num_nodes());
-  CHECK(has_camera_ || !config.camera_variable) << "there is no camera to vary";
+  CheckConfig(config);
   std::vector<SelectedResidual> selected;
   for (int t = 0; t < num_terms(); ++t) {
     const Term& term = terms_[t];
+    const bool cut = term.kind == EnergyKind::kPrior && config.seam_edges == SeamEdges::kCut;
     for (const Residual& residual : term.residuals) {
-      if (!IsIncluded(term, residual, config)) continue;
-      selected.push_back({residual.cost.get(),
-                          &term.blocks[residual.first_block],
-                          residual.num_blocks,
-                          t,
-                          term.weight * residual.weight});
+      const double weight = term.weight * residual.weight;
+      const BlockRef* blocks = &term.blocks[residual.first_block];
+      if (weight == 0.0 || !IsIncluded(blocks, residual.num_blocks, cut, config)) continue;
+      selected.push_back({residual.cost.get(), blocks, residual.num_blocks, t, weight});
     }
   }
+  for (const ExtraResidual& extra : config.extra_residuals) {
+    const int num_blocks = static_cast<int>(extra.blocks.size());
+    if (!IsIncluded(extra.blocks.data(), num_blocks, /*cut=*/false, config)) continue;
+    selected.push_back({extra.cost, extra.blocks.data(), num_blocks, -1, 1.0});
+  }
   return selected;
+}
+
+void ProblemBuilder::CheckConfig(const ProblemConfig& config) const {
+  CHECK_EQ(static_cast<int>(config.variable_nodes.size()), graph_.num_nodes());
+  CHECK(has_camera_ || !config.camera_variable) << "there is no camera to vary";
+  if (config.eliminated_nodes.empty()) return;
+  CHECK_EQ(static_cast<int>(config.eliminated_nodes.size()), graph_.num_nodes());
+  for (int j = 0; j < graph_.num_nodes(); ++j) {
+    CHECK(config.variable_nodes[j] == 0 || config.eliminated_nodes[j] == 0)
+        << "node " << j << " is both variable and eliminated";
+  }
 }
 
 BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState* state) const {
@@ -203,7 +220,8 @@ BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState
   built.camera_variable = config.camera_variable;
   // Residuals of one term and equal weight share a loss.
   std::map<std::pair<int, double>, ceres::LossFunction*> losses;
-  const auto loss_for = [&](int term, double weight) {
+  const auto loss_for = [&](int term, double weight) -> ceres::LossFunction* {
+    if (term < 0) return nullptr;
     ceres::LossFunction*& loss = losses[{term, weight}];
     if (loss == nullptr) {
       built.losses.push_back(std::make_unique<ceres::ScaledLoss>(

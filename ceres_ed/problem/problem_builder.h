@@ -46,11 +46,13 @@ struct EnergySummary {
   double Total() const;
 };
 
-// One residual block of a subproblem; what it points to belongs to the builder.
+// One residual block of a subproblem; what it points to belongs to the builder, or to the config
+// where it is one of its extra residuals.
 struct SelectedResidual {
   const ceres::CostFunction* cost = nullptr;
   const BlockRef* blocks = nullptr;
   int num_blocks = 0;
+  // -1 for an extra residual.
   int term = -1;
   // Weight of the term times that of the residual.
   double weight = 1.0;
@@ -80,6 +82,7 @@ class ProblemBuilder {
   void SetLoss(int term, const LossSpec& loss);
 
   int num_terms() const { return static_cast<int>(terms_.size()); }
+  const std::string& label(int term) const { return terms_[term].label; }
   double weight(int term) const { return terms_[term].weight; }
   const LossSpec& loss(int term) const { return terms_[term].loss; }
   // Residual blocks of a term.
@@ -88,8 +91,9 @@ class ProblemBuilder {
   // One entry a node: nonzero where an observation residual of positive weight touches it (PR).
   std::vector<char> PointRelevantNodes() const;
 
-  // The residuals that a problem of `config` has, in the order in which they were added: those of
-  // positive weight that touch something variable, less the priors that kCut takes out at the seam.
+  // The residuals that a problem of `config` has, in the order in which they were added, then the
+  // extra ones: those of positive weight that touch something variable and nothing eliminated, less
+  // the priors that kCut takes out at the seam. Looks at `config`, which must outlive the result.
   std::vector<SelectedResidual> Select(const ProblemConfig& config) const;
 
   // The problem of `config` over the blocks of `state`. Blocks that residuals touch and that aren't
@@ -118,7 +122,7 @@ class ProblemBuilder {
   };
   class TermSink;
 
-  bool IsIncluded(const Term& term, const Residual& residual, const ProblemConfig& config) const;
+  void CheckConfig(const ProblemConfig& config) const;
 
   const DeformationGraph& graph_;
   const bool has_camera_;

@@ -1,11 +1,15 @@
-// Levels are data: which parameters a subproblem may move, and what becomes of the edges that cross
-// its seam. The builder knows nothing of levels.
+// Levels are data: which parameters a subproblem may move, what becomes of the edges that cross its
+// seam, and what stands in for nodes that have been eliminated. The builder knows nothing of
+// levels.
 #ifndef CERES_ED_PROBLEM_PROBLEM_CONFIG_H_
 #define CERES_ED_PROBLEM_PROBLEM_CONFIG_H_
 
+#include <ceres_ed/energy/energy.h>
 #include <ceres_ed/graph/deformation_graph.h>
 
 #include <vector>
+
+#include <ceres/cost_function.h>
 
 namespace ceres_ed {
 
@@ -17,6 +21,14 @@ enum class SeamEdges {
   kCut,
 };
 
+// A residual beyond those of the builder's terms, of weight 1 and without a loss: what eliminated
+// nodes leave on those that remain. The cost function must outlive what is built with it.
+struct ExtraResidual {
+  const ceres::CostFunction* cost = nullptr;
+  // In the order of the cost function's parameter blocks.
+  std::vector<BlockRef> blocks;
+};
+
 // A subset of the full problem. Everything that isn't variable is held by
 // ceres::Problem::SetParameterBlockConstant; residuals that touch nothing variable are left out.
 struct ProblemConfig {
@@ -24,6 +36,11 @@ struct ProblemConfig {
   std::vector<char> variable_nodes;
   bool camera_variable = false;
   SeamEdges seam_edges = SeamEdges::kKeep;
+  // One entry a node: nonzero where it has been eliminated, which leaves out every residual that
+  // touches it. Empty where none is. No variable node is eliminated.
+  std::vector<char> eliminated_nodes;
+  // In place of what is left out.
+  std::vector<ExtraResidual> extra_residuals;
 
   int NumVariableNodes() const;
 };

@@ -2,9 +2,11 @@
 
 #include <ceres_ed/solver/ordered_structure.h>
 
-#include <numeric>
+#include <algorithm>
+#include <cstddef>
 #include <vector>
 
+#include <Eigen/OrderingMethods>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <glog/logging.h>
@@ -47,6 +49,31 @@ SparseMatrix ScalarPattern(const BlockStructure& structure) {
   return matrix;
 }
 
+// The block graph of the first `num_blocks` blocks, lower triangle.
+SparseMatrix LeadingGraph(const BlockStructure& structure, int num_blocks) {
+  CHECK(num_blocks >= 0 && num_blocks <= structure.num_blocks()) << num_blocks << " blocks";
+  SparseMatrix graph(num_blocks, num_blocks);
+  std::vector<Eigen::Triplet<double>> entries;
+  for (int j = 0; j < num_blocks; ++j) {
+    for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
+      if (structure.entry_row(e) < num_blocks) entries.emplace_back(structure.entry_row(e), j, 1.0);
+    }
+  }
+  graph.setFromTriplets(entries.begin(), entries.end());
+  return graph;
+}
+
+void AppendTrailing(const BlockStructure& structure, std::vector<int>* order) {
+  for (int j = static_cast<int>(order->size()); j < structure.num_blocks(); ++j) {
+    order->push_back(j);
+  }
+}
+
+// Scalar rows of the last blocks.
+int NumTrailingRows(const BlockStructure& structure, int num_trailing) {
+  return structure.num_rows() - structure.row_offset(structure.num_blocks() - num_trailing);
+}
+
 }  // namespace
 
 #ifdef CERES_ED_HAVE_CHOLMOD
@@ -70,32 +97,33 @@ cholmod_sparse View(SparseMatrix* matrix) {
   return view;
 }
 
-// A fill-reducing, postordered order of the blocks, each taken as one row.
-std::vector<int> FillReducingOrder(const BlockStructure& structure, cholmod_common* common) {
-  SparseMatrix graph(structure.num_blocks(), structure.num_blocks());
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < structure.num_blocks(); ++j) {
-    for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
-      entries.emplace_back(structure.entry_row(e), j, 1.0);
-    }
+// A fill-reducing, postordered order of the blocks, each taken as one row, with the trailing ones
+// behind the others.
+std::vector<int> FillReducingOrder(const BlockStructure& structure,
+                                   int num_trailing,
+                                   cholmod_common* common) {
+  SparseMatrix graph = LeadingGraph(structure, structure.num_blocks() - num_trailing);
+  std::vector<int> blocks;
+  if (graph.cols() > 0) {
+    cholmod_sparse view = View(&graph);
+    cholmod_factor* symbolic = cholmod_analyze(&view, common);
+    CHECK(symbolic != nullptr) << "CHOLMOD status " << common->status;
+    const int* order = static_cast<const int*>(symbolic->Perm);
+    blocks.assign(order, order + graph.cols());
+    cholmod_free_factor(&symbolic, common);
   }
-  graph.setFromTriplets(entries.begin(), entries.end());
-  cholmod_sparse view = View(&graph);
-  cholmod_factor* symbolic = cholmod_analyze(&view, common);
-  CHECK(symbolic != nullptr) << "CHOLMOD status " << common->status;
-  const int* order = static_cast<const int*>(symbolic->Perm);
-  std::vector<int> blocks(order, order + structure.num_blocks());
-  cholmod_free_factor(&symbolic, common);
+  AppendTrailing(structure, &blocks);
   return blocks;
 }
 
 }  // namespace
 
 struct BlockCholesky::Impl {
-  explicit Impl(const BlockStructure& block_structure)
+  Impl(const BlockStructure& block_structure, int num_trailing)
       : started(Start()),
-        structure(block_structure, FillReducingOrder(block_structure, &common)),
+        structure(block_structure, FillReducingOrder(block_structure, num_trailing, &common)),
         matrix(ScalarPattern(structure.ordered())),
+        num_trailing_rows(NumTrailingRows(block_structure, num_trailing)),
         rhs(matrix.rows()) {
     // The matrix is in its final order: CHOLMOD then takes it as it is, without a permuted copy.
     common.supernodal = CHOLMOD_SUPERNODAL;
@@ -125,7 +153,37 @@ struct BlockCholesky::Impl {
     return cholmod_factorize(&view, factor, &common) != 0 && common.status == CHOLMOD_OK;
   }
 
-  Eigen::VectorXd Solve(const Eigen::VectorXd& right_side) {
+  Eigen::VectorXd Solve(const Eigen::VectorXd& right_side) { return Solve(CHOLMOD_A, right_side); }
+  Eigen::VectorXd SolveLower(const Eigen::VectorXd& right_side) {
+    return Solve(CHOLMOD_L, right_side);
+  }
+  Eigen::VectorXd SolveUpper(const Eigen::VectorXd& right_side) {
+    return Solve(CHOLMOD_Lt, right_side);
+  }
+
+  // Supernodes are dense columns of rows that they share: rows s[pi[k]...] and values from px[k].
+  Eigen::MatrixXd TrailingFactor() const {
+    const int first = static_cast<int>(factor->n) - num_trailing_rows;
+    Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(num_trailing_rows, num_trailing_rows);
+    const int* super = static_cast<const int*>(factor->super);
+    const int* pi = static_cast<const int*>(factor->pi);
+    const int* px = static_cast<const int*>(factor->px);
+    const int* rows = static_cast<const int*>(factor->s);
+    const double* values = static_cast<const double*>(factor->x);
+    for (int k = static_cast<int>(factor->nsuper) - 1; k >= 0 && super[k + 1] > first; --k) {
+      const int num_rows = pi[k + 1] - pi[k];
+      for (int j = std::max(first, super[k]); j < super[k + 1]; ++j) {
+        const double* column =
+            values + px[k] + static_cast<std::ptrdiff_t>(j - super[k]) * num_rows;
+        for (int i = j - super[k]; i < num_rows; ++i) {
+          trailing(rows[pi[k] + i] - first, j - first) = column[i];
+        }
+      }
+    }
+    return trailing;
+  }
+
+  Eigen::VectorXd Solve(int system, const Eigen::VectorXd& right_side) {
     structure.ToOrdered(right_side, rhs.data());
     cholmod_dense b{};
     b.nrow = rhs.size();
@@ -135,7 +193,7 @@ struct BlockCholesky::Impl {
     b.x = rhs.data();
     b.xtype = CHOLMOD_REAL;
     b.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* x = cholmod_solve(CHOLMOD_A, factor, &b, &common);
+    cholmod_dense* x = cholmod_solve(system, factor, &b, &common);
     CHECK(x != nullptr) << "CHOLMOD status " << common.status;
     Eigen::VectorXd solution;
     structure.FromOrdered(static_cast<const double*>(x->x), &solution);
@@ -147,6 +205,7 @@ struct BlockCholesky::Impl {
   bool started;
   OrderedStructure structure;
   SparseMatrix matrix;
+  int num_trailing_rows;
   Eigen::VectorXd rhs;
   cholmod_factor* factor = nullptr;
 };
@@ -154,16 +213,24 @@ struct BlockCholesky::Impl {
 #else
 
 struct BlockCholesky::Impl {
-  explicit Impl(const BlockStructure& block_structure)
-      : structure(block_structure, NaturalOrder(block_structure)),
-        matrix(ScalarPattern(structure.ordered())) {
+  Impl(const BlockStructure& block_structure, int num_trailing)
+      : structure(block_structure, FillReducingOrder(block_structure, num_trailing)),
+        matrix(ScalarPattern(structure.ordered())),
+        num_trailing_rows(NumTrailingRows(block_structure, num_trailing)),
+        rhs(matrix.rows()) {
     factor.analyzePattern(matrix);
   }
 
-  static std::vector<int> NaturalOrder(const BlockStructure& block_structure) {
-    std::vector<int> order(block_structure.num_blocks());
-    std::iota(order.begin(), order.end(), 0);
-    return order;
+  // The trailing blocks behind the others.
+  static std::vector<int> FillReducingOrder(const BlockStructure& block_structure,
+                                            int num_trailing) {
+    const SparseMatrix graph =
+        LeadingGraph(block_structure, block_structure.num_blocks() - num_trailing);
+    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order(graph.cols());
+    if (graph.cols() > 0) Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), order);
+    std::vector<int> blocks(order.indices().data(), order.indices().data() + graph.cols());
+    AppendTrailing(block_structure, &blocks);
+    return blocks;
   }
 
   bool Factorize(const double* values, const Eigen::VectorXd& diagonal) {
@@ -172,17 +239,42 @@ struct BlockCholesky::Impl {
     return factor.info() == Eigen::Success;
   }
 
-  Eigen::VectorXd Solve(const Eigen::VectorXd& right_side) { return factor.solve(right_side); }
+  Eigen::VectorXd Solve(const Eigen::VectorXd& right_side) {
+    structure.ToOrdered(right_side, rhs.data());
+    return FromOrdered(factor.solve(rhs));
+  }
+  Eigen::VectorXd SolveLower(const Eigen::VectorXd& right_side) {
+    structure.ToOrdered(right_side, rhs.data());
+    return FromOrdered(factor.matrixL().solve(rhs));
+  }
+  Eigen::VectorXd SolveUpper(const Eigen::VectorXd& right_side) {
+    structure.ToOrdered(right_side, rhs.data());
+    return FromOrdered(factor.matrixU().solve(rhs));
+  }
+
+  Eigen::VectorXd FromOrdered(const Eigen::VectorXd& ordered) const {
+    Eigen::VectorXd rows;
+    structure.FromOrdered(ordered.data(), &rows);
+    return rows;
+  }
+
+  Eigen::MatrixXd TrailingFactor() const {
+    const SparseMatrix L = factor.matrixL();
+    return Eigen::MatrixXd(L.bottomRightCorner(num_trailing_rows, num_trailing_rows));
+  }
 
   OrderedStructure structure;
   SparseMatrix matrix;
-  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower> factor;
+  int num_trailing_rows;
+  Eigen::VectorXd rhs;
+  // The matrix is in its final order.
+  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor;
 };
 
 #endif
 
-BlockCholesky::BlockCholesky(const BlockStructure& structure)
-    : impl_(std::make_unique<Impl>(structure)) {}
+BlockCholesky::BlockCholesky(const BlockStructure& structure, int num_trailing)
+    : impl_(std::make_unique<Impl>(structure, num_trailing)) {}
 
 BlockCholesky::~BlockCholesky() = default;
 
@@ -191,5 +283,15 @@ bool BlockCholesky::Factorize(const double* values, const Eigen::VectorXd& diago
 }
 
 Eigen::VectorXd BlockCholesky::Solve(const Eigen::VectorXd& rhs) { return impl_->Solve(rhs); }
+
+Eigen::VectorXd BlockCholesky::SolveLower(const Eigen::VectorXd& rhs) {
+  return impl_->SolveLower(rhs);
+}
+
+Eigen::VectorXd BlockCholesky::SolveUpper(const Eigen::VectorXd& rhs) {
+  return impl_->SolveUpper(rhs);
+}
+
+Eigen::MatrixXd BlockCholesky::TrailingFactor() const { return impl_->TrailingFactor(); }
 
 }  // namespace ceres_ed

@@ -15,8 +15,9 @@ namespace ceres_ed {
 // else Eigen's. One object serves one thread at a time.
 class BlockCholesky {
  public:
-  // Analyses `structure`, which must outlive this.
-  explicit BlockCholesky(const BlockStructure& structure);
+  // Analyses `structure`, which must outlive this. Its last `num_trailing` blocks come last in the
+  // order of elimination, too, so that the factor ends in theirs.
+  explicit BlockCholesky(const BlockStructure& structure, int num_trailing = 0);
   ~BlockCholesky();
   BlockCholesky(const BlockCholesky&) = delete;
   BlockCholesky& operator=(const BlockCholesky&) = delete;
@@ -27,6 +28,15 @@ class BlockCholesky {
 
   // The solution for `rhs` of num_rows(), with the last successful factor.
   Eigen::VectorXd Solve(const Eigen::VectorXd& rhs);
+
+  // L^-1 rhs and L^-T rhs with the last successful factor, which is that of a permuted matrix:
+  // rows stand in the order of the structure all the same.
+  Eigen::VectorXd SolveLower(const Eigen::VectorXd& rhs);
+  Eigen::VectorXd SolveUpper(const Eigen::VectorXd& rhs);
+
+  // The rows and columns of L that belong to the trailing blocks: the Cholesky factor of their
+  // Schur complement (Eq. 20). Lower triangle, zeros above it.
+  Eigen::MatrixXd TrailingFactor() const;
 
  private:
   struct Impl;

@@ -66,17 +66,6 @@ class Minimizer {
   Eigen::VectorXd candidate_gradient_;
 };
 
-Eigen::VectorXd Diagonal(const BlockStructure& structure, const std::vector<double>& values) {
-  Eigen::VectorXd diagonal(structure.num_rows());
-  for (int j = 0; j < structure.num_blocks(); ++j) {
-    const double* block = &values[structure.value_offset(structure.column_begin(j))];
-    for (int i = 0; i < structure.size(j); ++i) {
-      diagonal[structure.row_offset(j) + i] = block[i * structure.size(j) + i];
-    }
-  }
-  return diagonal;
-}
-
 // Tests the step that minimises the damped quadratic model, and takes it if the cost follows. The
 // equations at the new state are worked out along with its cost unless it is the `last` one.
 Minimizer::Step Minimizer::TakeStep(bool last) {
@@ -112,7 +101,7 @@ Minimizer::Step Minimizer::TakeStep(bool last) {
   if (!last) {
     values_.swap(candidate_values_);
     gradient_.swap(candidate_gradient_);
-    diagonal_ = Diagonal(structure_, values_);
+    diagonal_ = structure_.Diagonal(values_);
   }
   radius_ = std::min(kMaxTrustRegionRadius,
                      radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * quality - 1.0, 3)));
@@ -151,7 +140,7 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
     summary->message = "a residual can't be evaluated at the start";
     return;
   }
-  diagonal_ = Diagonal(structure_, values_);
+  diagonal_ = structure_.Diagonal(values_);
   level->initial_cost = cost_;
   level->final_cost = cost_;
   int invalid_steps = 0;

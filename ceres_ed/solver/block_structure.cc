@@ -34,4 +34,13 @@ int BlockStructure::FindEntry(int row, int column) const {
   return found != end && *found == row ? static_cast<int>(found - entry_rows_.begin()) : -1;
 }
 
+Eigen::VectorXd BlockStructure::Diagonal(const std::vector<double>& values) const {
+  Eigen::VectorXd diagonal(num_rows());
+  for (int j = 0; j < num_blocks(); ++j) {
+    const double* block = &values[value_offset(column_begin(j))];
+    for (int i = 0; i < size(j); ++i) diagonal[row_offset(j) + i] = block[i * size(j) + i];
+  }
+  return diagonal;
+}
+
 }  // namespace ceres_ed

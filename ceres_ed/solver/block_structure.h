@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace ceres_ed {
 
 // The sparsity of a symmetric matrix of blocks, lower triangle, column by column. The diagonal
@@ -32,6 +34,9 @@ class BlockStructure {
 
   // The entry of (row, column), row >= column; -1 when it isn't there.
   int FindEntry(int row, int column) const;
+
+  // The scalar diagonal of a matrix of this structure.
+  Eigen::VectorXd Diagonal(const std::vector<double>& values) const;
 
  private:
   std::vector<int> sizes_;

@@ -1,10 +1,8 @@
 #include "ceres_ed/solver/normal_equations.h"
 
 #include <ceres_ed/solver/point_linearization.h>
-#include <ceres_ed/util/parallel.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -18,6 +16,14 @@ namespace {
 
 constexpr int kRotationTangent = 3;
 constexpr int kCameraTangent = 6;
+
+// The quadratic of a residual that touches nothing but nodes, else null.
+const QuadraticCost* AsNodeQuadratic(const SelectedResidual& residual) {
+  for (int i = 0; i < residual.num_blocks; ++i) {
+    if (residual.blocks[i].kind != BlockRef::Kind::kNode) return nullptr;
+  }
+  return dynamic_cast<const QuadraticCost*>(residual.cost);
+}
 
 }  // namespace
 
@@ -77,32 +83,45 @@ class NormalEquations::PointTable {
 };
 
 int NormalEquations::Item::LinearizationSize() const {
-  return point != nullptr ? PointLinearization::kNumDoubles : num_residuals * (1 + width);
+  if (point != nullptr) return PointLinearization::kNumDoubles;
+  if (quadratic != nullptr) return quadratic->size();
+  return num_residuals * (1 + width);
 }
 
 NormalEquations::NormalEquations(const ProblemBuilder& builder, const ProblemConfig& config) {
   const std::vector<SelectedResidual> selected = builder.Select(config);
-  std::vector<int> block_of_node(config.variable_nodes.size(), -1);
+  std::vector<char> touched(config.variable_nodes.size(), 0);
   for (const SelectedResidual& residual : selected) {
     for (int i = 0; i < residual.num_blocks; ++i) {
       const BlockRef& block = residual.blocks[i];
       if (block.kind != BlockRef::Kind::kNode) {
         camera_variable_ |= config.camera_variable;
       } else if (config.variable_nodes[block.node] != 0) {
-        block_of_node[block.node] = 0;
+        touched[block.node] = 1;
       }
     }
   }
-  for (int j = 0; j < static_cast<int>(block_of_node.size()); ++j) {
-    if (block_of_node[j] != 0) continue;
-    block_of_node[j] = num_variable_nodes();
-    variable_nodes_.push_back(j);
+  for (int j = 0; j < static_cast<int>(touched.size()); ++j) {
+    if (touched[j] != 0) variable_nodes_.push_back(j);
   }
-  for (int t = 0; t < builder.num_terms(); ++t) losses_.push_back(MakeLoss(builder.loss(t)));
+  AddItems(builder, selected);
+}
 
-  items_.reserve(selected.size());
-  PointTable points(selected.size());
-  for (const SelectedResidual& residual : selected) AddItem(residual, block_of_node, &points);
+NormalEquations::NormalEquations(const ProblemBuilder& builder,
+                                 const std::vector<SelectedResidual>& residuals,
+                                 const std::vector<int>& variable_nodes)
+    : variable_nodes_(variable_nodes) {
+  AddItems(builder, residuals);
+}
+
+void NormalEquations::AddItems(const ProblemBuilder& builder,
+                               const std::vector<SelectedResidual>& residuals) {
+  for (int t = 0; t < builder.num_terms(); ++t) losses_.push_back(MakeLoss(builder.loss(t)));
+  std::vector<int> block_of_node(builder.graph().num_nodes(), -1);
+  for (int i = 0; i < num_variable_nodes(); ++i) block_of_node[variable_nodes_[i]] = i;
+  items_.reserve(residuals.size());
+  PointTable points(residuals.size());
+  for (const SelectedResidual& residual : residuals) AddItem(residual, block_of_node, &points);
 }
 
 void NormalEquations::AddItem(const SelectedResidual& residual,
@@ -111,6 +130,7 @@ void NormalEquations::AddItem(const SelectedResidual& residual,
   Item item;
   item.residual = residual;
   item.point = dynamic_cast<const PointCostFunction*>(residual.cost);
+  if (Loss(residual.term) == nullptr) item.quadratic = AsNodeQuadratic(residual);
   item.num_residuals = residual.cost->num_residuals();
   max_residuals_ = std::max(max_residuals_, item.num_residuals);
   if (item.point != nullptr) {
@@ -187,82 +207,6 @@ bool NormalEquations::SetStructure(const BlockStructure* structure) {
   }
   structure_ = structure;
   return true;
-}
-
-bool NormalEquations::EvaluateSerial(const DeformationState& state,
-                                     double* cost,
-                                     std::vector<double>* values,
-                                     Eigen::VectorXd* gradient) const {
-  Scratch scratch(*this);
-  double* linearization = values != nullptr ? scratch.linearization.data() : nullptr;
-  const BlockRange all{0, structure_->num_blocks()};
-  for (const Item& item : items_) {
-    double item_cost = 0.0;
-    if (!EvaluateItem(item, state, linearization, &scratch, &item_cost)) return false;
-    *cost += item_cost;
-    if (values == nullptr) continue;
-    Accumulate(item, linearization, all, values->data(), gradient->data());
-  }
-  return true;
-}
-
-// All residuals first, then the sums, each block by one thread in the order of the residuals: the
-// same bits as EvaluateSerial at any number of threads.
-bool NormalEquations::EvaluateParallel(const DeformationState& state,
-                                       int num_threads,
-                                       double* cost,
-                                       std::vector<double>* values,
-                                       Eigen::VectorXd* gradient) const {
-  const int num_items = static_cast<int>(items_.size());
-  std::vector<std::size_t> offsets(num_items + 1, 0);
-  for (int i = 0; i < num_items && values != nullptr; ++i) {
-    offsets[i + 1] = offsets[i] + items_[i].LinearizationSize();
-  }
-  std::vector<double> linearizations(offsets.back());
-  std::vector<double> costs(num_items);
-  std::atomic<bool> ok{true};
-  ParallelFor(num_threads, num_items, [&](int begin, int end) {
-    Scratch scratch(*this);
-    for (int i = begin; i < end; ++i) {
-      double* linearization = values != nullptr ? &linearizations[offsets[i]] : nullptr;
-      if (!EvaluateItem(items_[i], state, linearization, &scratch, &costs[i])) {
-        ok = false;
-        return;
-      }
-    }
-  });
-  if (!ok) return false;
-  for (const double item_cost : costs) *cost += item_cost;
-  if (values == nullptr) return true;
-  ParallelFor(num_threads, structure_->num_blocks(), [&](int begin, int end) {
-    for (int i = 0; i < num_items; ++i) {
-      Accumulate(
-          items_[i], &linearizations[offsets[i]], {begin, end}, values->data(), gradient->data());
-    }
-  });
-  return true;
-}
-
-bool NormalEquations::Evaluate(const DeformationState& state,
-                               int num_threads,
-                               double* cost,
-                               std::vector<double>* values,
-                               Eigen::VectorXd* gradient) const {
-  CHECK(structure_ != nullptr) << "SetStructure comes first";
-  *cost = 0.0;
-  values->assign(structure_->num_values(), 0.0);
-  gradient->setZero(structure_->num_rows());
-  return num_threads > 1 ? EvaluateParallel(state, num_threads, cost, values, gradient)
-                         : EvaluateSerial(state, cost, values, gradient);
-}
-
-bool NormalEquations::EvaluateCost(const DeformationState& state,
-                                   int num_threads,
-                                   double* cost) const {
-  CHECK(structure_ != nullptr) << "SetStructure comes first";
-  *cost = 0.0;
-  return num_threads > 1 ? EvaluateParallel(state, num_threads, cost, nullptr, nullptr)
-                         : EvaluateSerial(state, cost, nullptr, nullptr);
 }
 
 void NormalEquations::Plus(const Eigen::VectorXd& delta, DeformationState* state) const {

@@ -12,16 +12,22 @@
 
 #include <Eigen/Core>
 #include <ceres/loss_function.h>
+#include <cost_functions/quadratic_cost.h>
 #include <cost_functions/warped_point_cost.h>
 
 namespace ceres_ed {
 
 // Unknowns: one block of 12 a variable node, in the order of the nodes, then one of 6 for a
 // variable camera (rotation in the tangent space of ceres::EigenQuaternionManifold, then
-// translation). The builder must outlive this, and its residuals stay as they are.
+// translation). Builder and config must outlive this, and their residuals stay as they are.
 class NormalEquations {
  public:
   NormalEquations(const ProblemBuilder& builder, const ProblemConfig& config);
+  // Of some residuals of the builder alone, with the blocks in the order of `variable_nodes`; the
+  // camera is held.
+  NormalEquations(const ProblemBuilder& builder,
+                  const std::vector<SelectedResidual>& residuals,
+                  const std::vector<int>& variable_nodes);
 
   int num_variable_nodes() const { return static_cast<int>(variable_nodes_.size()); }
   bool camera_variable() const { return camera_variable_; }
@@ -42,6 +48,12 @@ class NormalEquations {
                 double* cost,
                 std::vector<double>* values,
                 Eigen::VectorXd* gradient) const;
+
+  // The cost and its gradient.
+  bool EvaluateGradient(const DeformationState& state,
+                        int num_threads,
+                        double* cost,
+                        Eigen::VectorXd* gradient) const;
 
   // The cost alone.
   bool EvaluateCost(const DeformationState& state, int num_threads, double* cost) const;
@@ -67,6 +79,8 @@ class NormalEquations {
     SelectedResidual residual;
     // Set where the cost functions are on a warped point: their Jacobian has a form of its own.
     const PointCostFunction* point = nullptr;
+    // Set where it is a quadratic of nodes without a loss: the square of its Jacobian is known.
+    const QuadraticCost* quadratic = nullptr;
     // The next residual on the same point, into more_; -1 behind the last one.
     int more = -1;
     int last_more = -1;
@@ -90,7 +104,7 @@ class NormalEquations {
   class PointTable;
   // Buffers of one thread. A linearisation is corrected for the loss; of a general item it is the
   // residuals, then the parts of the Jacobian one after the other, each row-major, and of a point
-  // PointLinearization.
+  // PointLinearization, and of a quadratic its gradient.
   struct Scratch {
     explicit Scratch(const NormalEquations& equations);
 
@@ -102,9 +116,14 @@ class NormalEquations {
     std::vector<double*> jacobians;
   };
 
+  void AddItems(const ProblemBuilder& builder, const std::vector<SelectedResidual>& residuals);
   void AddItem(const SelectedResidual& residual,
                const std::vector<int>& block_of_node,
                PointTable* points);
+  // Null where there is none.
+  const ceres::LossFunction* Loss(int term) const {
+    return term < 0 ? nullptr : losses_[term].get();
+  }
   bool ApplyLoss(int term,
                  double weight,
                  int num_residuals,
@@ -127,13 +146,19 @@ class NormalEquations {
                      double* linearization,
                      Scratch* scratch,
                      double* cost) const;
+  bool EvaluateQuadratic(const Item& item,
+                         const DeformationState& state,
+                         double* linearization,
+                         Scratch* scratch,
+                         double* cost) const;
   // `linearization` is null where the cost alone is wanted.
   bool EvaluateItem(const Item& item,
                     const DeformationState& state,
                     double* linearization,
                     Scratch* scratch,
                     double* cost) const;
-  // What follows touches gradient rows of, and value columns of, blocks in [first, last) alone.
+  // What follows touches gradient rows of, and value columns of, blocks in [first, last) alone;
+  // where `values` is null only the gradient is wanted.
   struct BlockRange {
     int first = 0;
     int last = 0;
@@ -149,6 +174,11 @@ class NormalEquations {
                        const BlockRange& range,
                        double* values,
                        double* gradient) const;
+  void AccumulateQuadratic(const Item& item,
+                           const double* linearization,
+                           const BlockRange& range,
+                           double* values,
+                           double* gradient) const;
   void AccumulateCamera(const Item& item,
                         const double* linearization,
                         const BlockRange& range,

@@ -29,6 +29,7 @@ void NormalEquations::AccumulateGeneral(const Item& item,
         for (int i = 0; i < part_a.width; ++i) g[i] += J_a[k * part_a.width + i] * residuals[k];
       }
     }
+    if (values == nullptr) continue;
     for (int b = 0; b <= a; ++b, ++entry) {
       if (*entry < 0) continue;
       const Part& part_b = parts_[item.first_part + b];
@@ -71,6 +72,7 @@ void NormalEquations::AccumulatePoint(const Item& item,
         for (int r = 0; r < 3; ++r) g[3 * i + r] += factor * linear.v[r];
       }
     }
+    if (values == nullptr) continue;
     for (int b = 0; b <= a; ++b, ++entry) {
       if (*entry < 0) continue;
       const bool a_is_row = parts[a].block >= parts[b].block;
@@ -86,6 +88,34 @@ void NormalEquations::AccumulatePoint(const Item& item,
   }
   if (item.point->has_camera() && camera_variable_) {
     AccumulateCamera(item, linearization, range, values, gradient);
+  }
+}
+
+void NormalEquations::AccumulateQuadratic(const Item& item,
+                                          const double* linearization,
+                                          const BlockRange& range,
+                                          double* values,
+                                          double* gradient) const {
+  using NodeBlock = Eigen::Matrix<double, kNodeSize, kNodeSize>;
+  const Eigen::MatrixXd& hessian = item.quadratic->quadratic().hessian;
+  const Part* parts = &parts_[item.first_part];
+  const int* entry = &entries_[item.first_entry];
+  for (int a = 0; a < item.num_parts; ++a) {
+    if (parts[a].block >= 0 && range.Has(parts[a].block)) {
+      double* g = gradient + structure_->row_offset(parts[a].block);
+      for (int i = 0; i < kNodeSize; ++i) g[i] += linearization[a * kNodeSize + i];
+    }
+    if (values == nullptr) continue;
+    for (int b = 0; b <= a; ++b, ++entry) {
+      if (*entry < 0) continue;
+      const bool a_is_row = parts[a].block >= parts[b].block;
+      const int row = a_is_row ? a : b;
+      const int column = a_is_row ? b : a;
+      if (!range.Has(parts[column].block)) continue;
+      Eigen::Map<NodeBlock>(values + structure_->value_offset(*entry)) +=
+          item.residual.weight *
+          hessian.block<kNodeSize, kNodeSize>(row * kNodeSize, column * kNodeSize);
+    }
   }
 }
 
@@ -109,6 +139,9 @@ void NormalEquations::AccumulateCamera(const Item& item,
   if (range.Has(camera)) {
     Eigen::Map<Eigen::Matrix<double, kCameraTangent, 1>>(
         gradient + structure_->row_offset(camera)) += C.transpose() * linear.v_camera;
+  }
+  if (values == nullptr) return;
+  if (range.Has(camera)) {
     const int diagonal = structure_->column_begin(camera);
     Eigen::Map<Eigen::Matrix<double, kCameraTangent, kCameraTangent>>(
         values + structure_->value_offset(diagonal)) += C_M * C;
@@ -135,6 +168,8 @@ void NormalEquations::Accumulate(const Item& item,
                                  double* gradient) const {
   if (item.point != nullptr) {
     AccumulatePoint(item, linearization, range, values, gradient);
+  } else if (item.quadratic != nullptr) {
+    AccumulateQuadratic(item, linearization, range, values, gradient);
   } else {
     AccumulateGeneral(item, linearization, range, values, gradient);
   }

@@ -40,7 +40,7 @@ bool NormalEquations::ApplyLoss(int term,
   rho[0] = squared_norm;
   rho[1] = 1.0;
   rho[2] = 0.0;
-  const ceres::LossFunction* loss = losses_[term].get();
+  const ceres::LossFunction* loss = Loss(term);
   if (loss != nullptr) loss->Evaluate(squared_norm, rho);
   for (int i = 0; i < 3; ++i) rho[i] *= weight;
   *cost += 0.5 * rho[0];
@@ -163,12 +163,34 @@ bool NormalEquations::EvaluatePoint(const Item& item,
   return true;
 }
 
+bool NormalEquations::EvaluateQuadratic(const Item& item,
+                                        const DeformationState& state,
+                                        double* linearization,
+                                        Scratch* scratch,
+                                        double* cost) const {
+  for (int i = 0; i < item.num_parts; ++i) {
+    scratch->blocks[i] = BlockPointer(state, item.residual.blocks[i]);
+  }
+  const Quadratic& quadratic = item.quadratic->quadratic();
+  const double weight = item.residual.weight;
+  const Eigen::VectorXd d = item.quadratic->Difference(scratch->blocks.data());
+  const Eigen::VectorXd curved = quadratic.hessian * d;
+  *cost = weight * (quadratic.constant + quadratic.gradient.dot(d) + 0.5 * d.dot(curved));
+  if (linearization != nullptr) {
+    Eigen::Map<Eigen::VectorXd>(linearization, d.size()) = weight * (quadratic.gradient + curved);
+  }
+  return std::isfinite(*cost);
+}
+
 bool NormalEquations::EvaluateItem(const Item& item,
                                    const DeformationState& state,
                                    double* linearization,
                                    Scratch* scratch,
                                    double* cost) const {
   *cost = 0.0;
+  if (item.quadratic != nullptr) {
+    return EvaluateQuadratic(item, state, linearization, scratch, cost);
+  }
   return item.point != nullptr ? EvaluatePoint(item, state, linearization, scratch, cost)
                                : EvaluateGeneral(item, state, linearization, scratch, cost);
 }

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/solver/block_level_solver.h>
 #include <ceres_ed/solver/ceres_level_solver.h>
+#include <ceres_ed/solver/marginal_strategy.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -135,7 +136,8 @@ bool SolverOptions::IsValid(std::string* error) const {
 }
 
 bool StrategyOptions::IsValid(std::string* error) const {
-  return Require(rings >= 0, "rings", rings, ">= 0", error);
+  return Require(rings >= 0, "rings", rings, ">= 0", error) &&
+         Require(relinearize_above >= 0.0, "relinearize_above", relinearize_above, ">= 0", error);
 }
 
 std::string SolveStatusName(SolveStatus status) {
@@ -176,6 +178,8 @@ std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options) {
       return std::make_unique<BatchStrategy>(options.linear_solver);
     case SolveMode::kTwoLevel:
       return std::make_unique<TwoLevelStrategy>(options);
+    case SolveMode::kMarginal:
+      return std::make_unique<MarginalStrategy>(options);
   }
   LOG(FATAL) << "unknown mode";
 }

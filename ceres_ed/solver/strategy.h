@@ -89,15 +89,28 @@ class Strategy {
                              DeformationState* state) = 0;
 };
 
-enum class SolveMode { kBatch, kTwoLevel };
+enum class SolveMode {
+  // Every node at once.
+  kBatch,
+  // Camera and PR nodes (Eq. 14), then PI nodes (Eq. 15).
+  kTwoLevel,
+  // Camera and PR nodes with the PI nodes eliminated (Eq. 20), then PI nodes by back-substitution:
+  // the minimum of kBatch. Its levels are Level I and the residuals of the eliminated nodes.
+  kMarginal,
+};
 
 // Which strategy, and how it treats the seam.
 struct StrategyOptions {
   SolveMode mode = SolveMode::kBatch;
   // Rings of PI nodes that Level I moves too, >= 0.
   int rings = 2;
+  // Of kTwoLevel.
   SeamEdges seam_edges = SeamEdges::kKeep;
   LinearSolver linear_solver = LinearSolver::kBlock;
+  // kMarginal: change of an entry of A_j of a PI node above which an elimination isn't used again,
+  // no unit, >= 0. It changes the number of steps and what one costs, not the minimum. Much above
+  // the default the soft modes of a large hidden part go astray, and steps are refused.
+  double relinearize_above = 0.003;
 
   bool IsValid(std::string* error) const;
 };

@@ -38,8 +38,7 @@ class EdFitBadInputTest : public EdFitTest {
 
 TEST_F(EdFitBadInputTest, BadFlagsAreUsageErrors) {
   const std::vector<std::vector<std::string>> bad = {
-      {"--mode=fast", "--mode=fast", "batch or two_level"},
-      {"--mode=marginal", "--mode=marginal", "not available in this version"},
+      {"--mode=fast", "--mode=fast", "batch or two_level or marginal"},
       {"--boundary=tear", "--boundary=tear", "keep or cut"},
       {"--loss=l1", "--loss", "l1", "welsch"},
       {"--rings=-1", "rings", "-1"},

@@ -122,15 +122,47 @@ TEST_F(EdFitTest, SolvesInTwoLevels) {
   }
 }
 
+// Half of the target is gone, so that some nodes are PI.
+TEST_F(EdFitTest, MarginalisesToWhatBatchFinds) {
+  WriteHalfTarget();
+  std::map<std::string, nlohmann::json> reports;
+  std::map<std::string, std::vector<Eigen::Vector3d>> points;
+  for (const std::string mode : {"batch", "marginal"}) {
+    const ProgramResult result =
+        FitPair({"--mode=" + mode, "--rings=0", "--report=" + (dir_ / "report.json")});
+    ASSERT_EQ(result.exit_code, 0) << result.err;
+    reports[mode] = Report();
+    points[mode] = Load("out.ply").cloud.points;
+  }
+  const nlohmann::json& batch = reports["batch"];
+  const nlohmann::json& marginal = reports["marginal"];
+  EXPECT_EQ(marginal["mode"], "marginal");
+  EXPECT_EQ(marginal["status"], batch["status"]);
+  EXPECT_EQ(marginal["nodes"], batch["nodes"]);
+  EXPECT_GT(marginal["nodes"]["pi"], 0);
+  EXPECT_GT(marginal["time_s"]["level1"], 0.0);
+  EXPECT_GT(marginal["time_s"]["level2"], 0.0);
+  EXPECT_EQ(batch["time_s"]["level2"], 0.0);
+  const double energy = batch["energy"]["final"];
+  EXPECT_NEAR(marginal["energy"]["final"], energy, 1e-5 * energy);
+  EXPECT_LT(LargestDistance(points["marginal"], points["batch"]), 2e-4 * kRingDiagonal);
+}
+
 TEST_F(EdFitTest, GivesTheSameBytesAtAnyThreadCountAndAgain) {
-  std::map<std::string, std::string> first;
-  for (const char* threads : {"1", "2", "1"}) {
-    ASSERT_EQ(
-        FitPair({"--warp=" + (dir_ / "warp.json"), std::string("--threads=") + threads}).exit_code,
-        0);
-    for (const char* name : {"out.ply", "warp.json"}) {
-      const std::string bytes = ReadBytes(dir_ / name);
-      EXPECT_EQ(first.emplace(name, bytes).first->second, bytes) << name << ", threads " << threads;
+  for (const std::string mode : {"batch", "marginal"}) {
+    if (mode == "marginal") WriteHalfTarget();
+    std::map<std::string, std::string> first;
+    for (const char* threads : {"1", "2", "1"}) {
+      ASSERT_EQ(FitPair({"--warp=" + (dir_ / "warp.json"),
+                         "--mode=" + mode,
+                         std::string("--threads=") + threads})
+                    .exit_code,
+                0);
+      for (const char* name : {"out.ply", "warp.json"}) {
+        const std::string bytes = ReadBytes(dir_ / name);
+        EXPECT_EQ(first.emplace(name, bytes).first->second, bytes)
+            << mode << ", " << name << ", threads " << threads;
+      }
     }
   }
 }

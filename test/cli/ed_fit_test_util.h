@@ -64,6 +64,8 @@ struct RingOptions {
   std::vector<std::string> more_faces;
   // Vertices that are written as NaN.
   std::function<bool(int)> is_nan = [](int) { return false; };
+  // Columns whose faces are there.
+  std::function<bool(int)> is_kept = [](int) { return true; };
 
   int size() const { return columns * rows; }
 };
@@ -90,6 +92,7 @@ inline std::string RingVertexRows(const RingOptions& options) {
 inline std::string RingFaceRows(const RingOptions& options) {
   std::ostringstream text;
   for (int i = 0; options.faces && i < options.size(); ++i) {
+    if (!options.is_kept(i % options.columns)) continue;
     const int right = i % options.columns + 1 < options.columns ? i + 1 : i + 1 - options.columns;
     const int above = (i + options.columns) % options.size();
     const int diagonal = (right + options.columns) % options.size();
@@ -137,6 +140,16 @@ class EdFitTest : public ::testing::Test {
     target.bent = true;
     target.columns = 31;
     target.rows = 17;
+    WriteBytes(dir_ / "target.ply", RingPly(target));
+  }
+
+  // Of the target, no more than the faces in this half of its columns.
+  void WriteHalfTarget() {
+    RingOptions target;
+    target.bent = true;
+    target.columns = 31;
+    target.rows = 17;
+    target.is_kept = [](int column) { return column < 16; };
     WriteBytes(dir_ / "target.ply", RingPly(target));
   }
 

@@ -80,15 +80,25 @@ constexpr double kMargin = 1.3;
 const ShippedCase kShipped[] = {
     {"plane_bumps", SolveMode::kBatch, 0.378, 0.036},
     {"plane_bumps", SolveMode::kTwoLevel, 0.378, 0.036},
+    {"plane_bumps", SolveMode::kMarginal, 0.378, 0.036},
     {"dolphin_bend", SolveMode::kBatch, 0.306, 0.032},
     {"dolphin_bend", SolveMode::kTwoLevel, 0.306, 0.032},
+    {"dolphin_bend", SolveMode::kMarginal, 0.306, 0.032},
     {"heart_partial", SolveMode::kBatch, 2.420, 0.046},
     {"heart_partial", SolveMode::kTwoLevel, 2.420, 0.046},
+    {"heart_partial", SolveMode::kMarginal, 2.420, 0.046},
     {"kidney_partial", SolveMode::kBatch, 2.400, 0.045},
     {"kidney_partial", SolveMode::kTwoLevel, 2.400, 0.045},
+    {"kidney_partial", SolveMode::kMarginal, 2.400, 0.045},
     {"stomach_partial", SolveMode::kBatch, 1.710, 0.043},
     {"stomach_partial", SolveMode::kTwoLevel, 1.710, 0.043},
+    {"stomach_partial", SolveMode::kMarginal, 1.710, 0.043},
 };
+
+const char* ModeName(SolveMode mode) {
+  if (mode == SolveMode::kBatch) return "Batch";
+  return mode == SolveMode::kTwoLevel ? "TwoLevel" : "Marginal";
+}
 
 void PrintTo(const ShippedCase& shipped, std::ostream* stream) { *stream << shipped.pair; }
 
@@ -100,10 +110,9 @@ TEST_P(ShippedPair, IsFittedAsWellAsEver) {
   const FitResult result = FitPair(pair, expected.mode);
   ASSERT_TRUE(result.IsUsable()) << result.message;
   const Evaluation evaluation = Measure(pair, result.points);
-  const char* mode = expected.mode == SolveMode::kBatch ? "kBatch" : "kTwoLevel";
-  std::printf("    {\"%s\", SolveMode::%s, %.3f, %.3f},\n",
+  std::printf("    {\"%s\", SolveMode::k%s, %.3f, %.3f},\n",
               expected.pair,
-              mode,
+              ModeName(expected.mode),
               TruthPercent(evaluation),
               SurfacePercent(evaluation));
   EXPECT_LT(TruthPercent(evaluation), kMargin * expected.truth_percent);
@@ -112,9 +121,25 @@ TEST_P(ShippedPair, IsFittedAsWellAsEver) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Pairs, ShippedPair, ::testing::ValuesIn(kShipped), [](const auto& info) {
-  const bool batch = info.param.mode == SolveMode::kBatch;
-  return std::string(info.param.pair) + (batch ? "_batch" : "_two_level");
+  return std::string(info.param.pair) + "_" + ModeName(info.param.mode);
 });
+
+// What isn't seen of the heart is marginalised: a fit with the energy, and the points, of the
+// other.
+TEST(ShippedPairs, MarginalFindsWhatBatchFinds) {
+  const Pair pair(std::string(CERES_ED_SOURCE_DIR) + "/data/heart_partial");
+  const FitResult batch = FitPair(pair, SolveMode::kBatch);
+  const FitResult marginal = FitPair(pair, SolveMode::kMarginal);
+  ASSERT_TRUE(marginal.IsUsable()) << marginal.message;
+  EXPECT_EQ(marginal.point_relevant, batch.point_relevant);
+  const double energy = batch.final_energy.Total();
+  EXPECT_NEAR(marginal.final_energy.Total(), energy, 1e-6 * energy);
+  double largest = 0.0;
+  for (std::size_t i = 0; i < batch.points.size(); ++i) {
+    largest = std::max(largest, (batch.points[i] - marginal.points[i]).norm());
+  }
+  EXPECT_LT(100.0 * largest / Measure(pair, batch.points).diagonal, 0.01);
+}
 
 // Real pairs, which can't be shipped: found in the folder that CERES_ED_DATA names.
 class RealPair : public ::testing::Test {

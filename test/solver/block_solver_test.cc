@@ -1,6 +1,5 @@
 // The block solver against Ceres, and its parts against dense linear algebra.
 #include <ceres_ed/energy/builtin_energies.h>
-#include <ceres_ed/solver/block_cholesky.h>
 #include <ceres_ed/solver/loss_correction.h>
 #include <ceres_ed/solver/normal_equations.h>
 #include <ceres_ed/solver/strategy.h>
@@ -8,14 +7,12 @@
 
 #include <cmath>
 #include <memory>
-#include <random>
-#include <utility>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <ceres/crs_matrix.h>
 #include <gtest/gtest.h>
+#include <test/solver/dense_matrix.h>
 
 namespace ceres_ed {
 namespace {
@@ -52,21 +49,6 @@ TestProblem MakeProblem(bool has_camera) {
   return MakeTestProblem(options);
 }
 
-// The lower triangle in blocks as a full symmetric matrix.
-Eigen::MatrixXd Dense(const BlockStructure& structure, const std::vector<double>& values) {
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(structure.num_rows(), structure.num_rows());
-  for (int j = 0; j < structure.num_blocks(); ++j) {
-    for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
-      const int i = structure.entry_row(e);
-      dense.block(
-          structure.row_offset(i), structure.row_offset(j), structure.size(i), structure.size(j)) =
-          Eigen::Map<const Eigen::MatrixXd>(
-              &values[structure.value_offset(e)], structure.size(i), structure.size(j));
-    }
-  }
-  return dense.selfadjointView<Eigen::Lower>();
-}
-
 struct Assembled {
   double cost = 0.0;
   Eigen::MatrixXd H;
@@ -84,7 +66,7 @@ Assembled AssembleInBlocks(const ProblemBuilder& builder,
   std::vector<double> values;
   EXPECT_TRUE(
       equations.Evaluate(state, num_threads, &assembled.cost, &values, &assembled.gradient));
-  assembled.H = Dense(structure, values);
+  assembled.H = DenseOf(structure, values);
   return assembled;
 }
 
@@ -105,10 +87,7 @@ Assembled AssembleWithCeres(const ProblemBuilder& builder,
   ceres::CRSMatrix crs;
   std::vector<double> gradient;
   EXPECT_TRUE(built.problem->Evaluate(options, &assembled.cost, nullptr, &gradient, &crs));
-  Eigen::MatrixXd J = Eigen::MatrixXd::Zero(crs.num_rows, crs.num_cols);
-  for (int r = 0; r < crs.num_rows; ++r) {
-    for (int k = crs.rows[r]; k < crs.rows[r + 1]; ++k) J(r, crs.cols[k]) = crs.values[k];
-  }
+  const Eigen::MatrixXd J = DenseOf(crs);
   assembled.H = J.transpose() * J;
   assembled.gradient = Eigen::Map<Eigen::VectorXd>(gradient.data(), gradient.size());
   return assembled;
@@ -177,40 +156,6 @@ TEST(LossCorrection, HasTheGradientAndTriggsMatrixOfTheRobustCost) {
         rho[1] * J.transpose() * J + 2.0 * std::max(0.0, rho2) * g * g.transpose();
     EXPECT_LT((corrected_J.transpose() * corrected_J - H).norm(), 1e-13) << "rho'' = " << rho2;
   }
-}
-
-TEST(BlockCholesky, SolvesWhatDenseCholeskySolves) {
-  std::mt19937 random(3);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const std::vector<int> sizes = {12, 6, 12, 12, 6, 12, 12};
-  const std::vector<std::pair<int, int>> pairs = {
-      {6, 0}, {1, 2}, {3, 1}, {5, 4}, {4, 5}, {6, 3}, {2, 0}, {0, 5}};
-  const BlockStructure structure(sizes, pairs);
-  std::vector<double> values(structure.num_values());
-  for (double& value : values) value = uniform(random);
-  const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(structure.num_rows(), 30.0);
-  Eigen::MatrixXd dense = Dense(structure, values);
-  dense.diagonal() += diagonal;
-  Eigen::VectorXd rhs(structure.num_rows());
-  for (double& value : rhs) value = uniform(random);
-
-  BlockCholesky cholesky(structure);
-  ASSERT_TRUE(cholesky.Factorize(values.data(), diagonal));
-  const Eigen::VectorXd expected = dense.llt().solve(rhs);
-  EXPECT_LT((cholesky.Solve(rhs) - expected).norm(), 1e-12 * expected.norm());
-  // A factor that fails leaves an object that still works.
-  EXPECT_FALSE(cholesky.Factorize(values.data(), -diagonal));
-  ASSERT_TRUE(cholesky.Factorize(values.data(), diagonal));
-  EXPECT_LT((cholesky.Solve(rhs) - expected).norm(), 1e-12 * expected.norm());
-}
-
-TEST(BlockStructure, FindsWhatItHasAndNothingElse) {
-  const BlockStructure structure({12, 6, 12}, {{0, 2}, {2, 0}});
-  EXPECT_EQ(structure.num_entries(), 4);
-  EXPECT_EQ(structure.entry_row(structure.FindEntry(2, 0)), 2);
-  EXPECT_EQ(structure.FindEntry(1, 0), -1);
-  EXPECT_EQ(structure.FindEntry(2, 1), -1);
-  EXPECT_EQ(structure.num_values(), 12u * 12 + 12 * 12 + 6 * 6 + 12 * 12);
 }
 
 SolverOptions Converging() {

@@ -66,6 +66,11 @@ TestProblemOptions HalfSeen() {
 
 using Case = std::tuple<SolveMode, LinearSolver>;
 
+std::string ModeName(SolveMode mode) {
+  if (mode == SolveMode::kBatch) return "Batch";
+  return mode == SolveMode::kTwoLevel ? "TwoLevel" : "Marginal";
+}
+
 class StrategyStatus : public ::testing::TestWithParam<Case> {
  protected:
   SolveSummary Solve(const SolverOptions& options) {
@@ -175,10 +180,11 @@ TEST_P(StrategyStatus, LeavesTheStateAsItWasWhereACostOfAPointIrrelevantNodeFail
 INSTANTIATE_TEST_SUITE_P(
     All,
     StrategyStatus,
-    ::testing::Combine(::testing::Values(SolveMode::kBatch, SolveMode::kTwoLevel),
-                       ::testing::Values(LinearSolver::kCeres, LinearSolver::kBlock)),
+    ::testing::Combine(
+        ::testing::Values(SolveMode::kBatch, SolveMode::kTwoLevel, SolveMode::kMarginal),
+        ::testing::Values(LinearSolver::kCeres, LinearSolver::kBlock)),
     [](const ::testing::TestParamInfo<Case>& info) {
-      return std::string(std::get<0>(info.param) == SolveMode::kBatch ? "Batch" : "TwoLevel") +
+      return ModeName(std::get<0>(info.param)) +
              (std::get<1>(info.param) == LinearSolver::kCeres ? "Ceres" : "Block");
     });
 

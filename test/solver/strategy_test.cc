@@ -14,6 +14,7 @@ namespace ceres_ed {
 namespace {
 
 constexpr LinearSolver kLinearSolvers[] = {LinearSolver::kCeres, LinearSolver::kBlock};
+constexpr SolveMode kModes[] = {SolveMode::kBatch, SolveMode::kTwoLevel, SolveMode::kMarginal};
 
 std::unique_ptr<Strategy> Make(SolveMode mode,
                                LinearSolver linear_solver,
@@ -70,6 +71,10 @@ TEST(SolverOptions, NameTheOptionThatIsOutOfRange) {
   std::string error;
   EXPECT_FALSE(strategy.IsValid(&error));
   EXPECT_EQ(error, "rings is -2, expected >= 0");
+  strategy.rings = 0;
+  strategy.relinearize_above = -0.5;
+  EXPECT_FALSE(strategy.IsValid(&error));
+  EXPECT_EQ(error, "relinearize_above is -0.5, expected >= 0");
 }
 
 TEST(SolveStatusName, IsThatOfTheReport) {
@@ -102,7 +107,7 @@ TEST(Strategy, FindsARigidMotionOfAllPoints) {
   solver.parameter_tolerance = 1e-14;
   const std::vector<double> expected = AllParameters(RigidState(strip.problem.graph, motion));
   for (const LinearSolver linear_solver : kLinearSolvers) {
-    for (const SolveMode mode : {SolveMode::kBatch, SolveMode::kTwoLevel}) {
+    for (const SolveMode mode : kModes) {
       DeformationState state(18);
       const SolveSummary summary = Make(mode, linear_solver)->Solve(strip.builder, solver, &state);
       ASSERT_TRUE(summary.IsUsable());
@@ -144,7 +149,7 @@ TEST(Strategy, CountsWhatEachLevelDid) {
 
 TEST(Strategy, SummaryHasTheFullEnergyBeforeAndAfter) {
   for (const LinearSolver linear_solver : kLinearSolvers) {
-    for (const SolveMode mode : {SolveMode::kBatch, SolveMode::kTwoLevel}) {
+    for (const SolveMode mode : kModes) {
       const StripBuilder strip(HalfSeen(true));
       DeformationState state = RandomState(strip.problem, 0.1, 8);
       const double before = strip.builder.Evaluate(state).Total();
@@ -163,7 +168,7 @@ TEST(Strategy, LinearSolversFindTheSameMinimum) {
   solver.max_iterations = 200;
   solver.function_tolerance = 1e-15;
   solver.parameter_tolerance = 1e-13;
-  for (const SolveMode mode : {SolveMode::kBatch, SolveMode::kTwoLevel}) {
+  for (const SolveMode mode : kModes) {
     DeformationState reference(18);
     DeformationState state(18);
     const double energy =
@@ -231,7 +236,7 @@ TEST(Strategy, GivesTheSameOnOneThreadAndOnTwo) {
   StripBuilder strip(options, "point_to_plane");
   strip.builder.SetLoss(strip.data, {LossType::kHuber, 0.05});
   for (const LinearSolver linear_solver : kLinearSolvers) {
-    for (const SolveMode mode : {SolveMode::kBatch, SolveMode::kTwoLevel}) {
+    for (const SolveMode mode : kModes) {
       std::vector<double> first;
       for (const int threads : {1, 2, 2, 1}) {
         SolverOptions solver;
