@@ -14,7 +14,7 @@ namespace {
 
 constexpr Choice<SolveMode> kModes[] = {{"two_level", SolveMode::kTwoLevel},
                                         {"batch", SolveMode::kBatch},
-                                        {"marginal", SolveMode::kTwoLevel, /*available=*/false}};
+                                        {"marginal", SolveMode::kMarginal}};
 constexpr Choice<SeamEdges> kBoundaries[] = {{"keep", SeamEdges::kKeep}, {"cut", SeamEdges::kCut}};
 constexpr Choice<LevelTwoMode> kLevelTwos[] = {{"full", LevelTwoMode::kFull},
                                                {"lazy", LevelTwoMode::kLazy}};
@@ -40,12 +40,11 @@ using ceres_ed::Defaults;
 using ceres_ed::NameOf;
 
 DEFINE_string(output, "", "folder to write; required");
-DEFINE_string(mode,
-              NameOf(ceres_ed::kModes, Defaults().options.mode),
-              "two_level: nodes in view first, then the rest; batch: all at once");
-DEFINE_int32(rings,
-             Defaults().options.rings,
-             "two_level: rings of hidden nodes that level I moves too");
+DEFINE_string(
+    mode,
+    NameOf(ceres_ed::kModes, Defaults().options.mode),
+    "two_level: nodes in view, then the rest; batch: all; marginal: as batch, from those in view");
+DEFINE_int32(rings, Defaults().options.rings, "rings of hidden nodes that level I moves too");
 DEFINE_string(boundary,
               NameOf(ceres_ed::kBoundaries, Defaults().options.seam_edges),
               "two_level: keep or cut edges across the seam of level I");

@@ -9,6 +9,7 @@ namespace {
 
 LevelsOptions ConvergedBatch(LevelsOptions options) {
   options.rings = -1;
+  options.marginal = false;
   options.solver.max_iterations = 100;
   options.solver.function_tolerance = 1e-9;
   options.solver.gradient_tolerance = 1e-12;

@@ -163,6 +163,7 @@ void FeaturePoints::Exchange(CheckpointArchive* archive) {
 void Levels::ForgetSolvers() {
   level_one_ = MakeLevelSolver(options_.linear_solver);
   level_two_ = MakeLevelSolver(options_.linear_solver);
+  MakeMarginal();
 }
 
 void Levels::Exchange(CheckpointArchive* archive) {

@@ -50,13 +50,12 @@ LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
     const int index = builder.AddTerm(term.name, term.energy->kind(), term.weight, term.loss);
     builder.CollectResiduals(index, *term.energy, context);
   }
+  const ProblemConfig config = window.Config(/*camera_variable=*/false, SeamEdges::kKeep);
+  const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
+    return level_two_->Solve(builder, config, steps, &window.state, summary);
+  };
   std::vector<double> motion;
-  const LevelReport report = Solve(builder,
-                                   window.Config(/*camera_variable=*/false, SeamEdges::kKeep),
-                                   level_two_.get(),
-                                   &window,
-                                   map,
-                                   &motion);
+  const LevelReport report = Solve(options_.solver, solve, window, map, &motion);
   if (report.status != SolveStatus::kFailed) {
     pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/true);
   }

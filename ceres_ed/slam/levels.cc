@@ -22,6 +22,10 @@ SolverOptions OneStep() {
   return options;
 }
 
+// Where a frame's last problem is solved to its end.
+constexpr int kFinishSteps = 20;
+constexpr double kFinishTolerance = 1e-5;
+
 // How far a node went from `before`: |dt| + |dA|.
 double MotionOf(const double* before, const double* after) {
   return (NodeTranslation(after) - NodeTranslation(before)).norm() +
@@ -60,7 +64,17 @@ StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
   }
   levels->level_one_ = MakeLevelSolver(options.linear_solver);
   levels->level_two_ = MakeLevelSolver(options.linear_solver);
+  levels->MakeMarginal();
   return levels;
+}
+
+void Levels::MakeMarginal() {
+  if (!options_.marginal) return;
+  MarginalLevelOptions marginal;
+  marginal.rings = options_.rings;
+  marginal.reach = options_.level_two == LevelTwoMode::kFull ? -1 : options_.marginal_reach;
+  marginal.linear_solver = options_.linear_solver;
+  marginal_ = std::make_unique<MarginalLevel>(marginal);
 }
 
 void Levels::MarkPointRelevant(const FrameObservations& observations) {
@@ -85,12 +99,43 @@ void Levels::MarkMoved(const DeformableMap& map) {
   moved_.Sort();
 }
 
+std::vector<int> Levels::ChooseNodes(const FrameObservations& observations,
+                                     const DeformableMap& map) {
+  MarkPointRelevant(observations);
+  if (marginal_ == nullptr) {
+    MarkMoved(map);
+    return moved_.nodes();
+  }
+  marginal_->Choose(map.graph(), point_relevant_);
+  moved_.Clear();
+  for (const int node : marginal_->kept()) moved_.Add(node);
+  moved_.Sort();
+  std::vector<int> nodes = marginal_->eliminated();
+  nodes.insert(nodes.end(), marginal_->kept().begin(), marginal_->kept().end());
+  return nodes;
+}
+
 LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
                                   NodePriorSource* priors,
                                   DeformableMap* map) {
-  MarkPointRelevant(observations);
-  MarkMoved(*map);
-  LevelWindow window = windows_.Build(map->graph(), map->state(), moved_.nodes(), /*held=*/{});
+  return SolveLevelOne(observations, options_.solver, priors, map);
+}
+
+LevelReport Levels::FinishLevelOne(const FrameObservations& observations,
+                                   NodePriorSource* priors,
+                                   DeformableMap* map) {
+  SolverOptions options = options_.solver;
+  options.max_iterations = kFinishSteps;
+  options.function_tolerance = kFinishTolerance;
+  return SolveLevelOne(observations, options, priors, map);
+}
+
+LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
+                                  const SolverOptions& options,
+                                  NodePriorSource* priors,
+                                  DeformableMap* map) {
+  LevelWindow window =
+      windows_.Build(map->graph(), map->state(), ChooseNodes(observations, *map), /*held=*/{});
   if (priors != nullptr) priors->UpdatePriors(window.nodes, map);
   const WindowObservations seen(observations, windows_, *map, window);
   // Data count per PR node, whatever the density of points.
@@ -108,50 +153,52 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
     const int index = builder.AddTerm(term.name, term.energy->kind(), weight, loss);
     builder.CollectResiduals(index, *term.energy, context);
   }
+  const bool camera = options_.camera_variable;
+  const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
+    if (marginal_ != nullptr) {
+      return marginal_->Solve(builder, camera, steps, &window, summary);
+    }
+    const ProblemConfig config = window.Config(camera, options_.seam_edges);
+    return level_one_->Solve(builder, config, steps, &window.state, summary);
+  };
   std::vector<double> motion;
-  LevelReport report = Solve(builder,
-                             window.Config(options_.camera_variable, options_.seam_edges),
-                             level_one_.get(),
-                             &window,
-                             map,
-                             &motion);
+  LevelReport report = Solve(options, solve, window, map, &motion);
   report.point_relevant = point_relevant_.size();
-  if (report.status != SolveStatus::kFailed) {
-    pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/false);
-  }
+  if (marginal_ != nullptr) report.marginalized = static_cast<int>(marginal_->eliminated().size());
+  if (report.status == SolveStatus::kFailed) return report;
+  if (camera) map->SetCamera(window.state.camera_from_map);
+  pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/marginal_ != nullptr);
   return report;
 }
 
-LevelReport Levels::Solve(const ProblemBuilder& builder,
-                          const ProblemConfig& config,
-                          LevelSolver* solver,
-                          LevelWindow* window,
+LevelReport Levels::Solve(const SolverOptions& options,
+                          const SolveWindow& solve,
+                          const LevelWindow& window,
                           DeformableMap* map,
                           std::vector<double>* motion) {
   LevelReport report;
-  SolverOptions options = options_.solver;
   SolveSummary summary;
-  bool solved = solver->Solve(builder, config, options, &window->state, &summary);
+  bool solved = solve(options, &summary);
   const auto moved = [&summary] {
     return summary.levels.back().final_cost < summary.levels.back().initial_cost;
   };
   if (solved && summary.status == SolveStatus::kMaxIterations && !moved()) {
-    options.max_iterations += kMoreSteps;
-    solved = solver->Solve(builder, config, options, &window->state, &summary);
+    SolverOptions more = options;
+    more.max_iterations += kMoreSteps;
+    solved = solve(more, &summary);
   }
   report.status = summary.status;
   if (!solved) return report;
-  report.variable_nodes = window->num_variable;
+  report.variable_nodes = window.num_variable;
   report.iterations = summary.TotalIterations();
   report.initial_energy = summary.levels.back().initial_cost;
   report.energy = summary.levels.back().final_cost;
-  motion->resize(window->num_variable);
-  for (int i = 0; i < window->num_variable; ++i) {
-    const int node = window->nodes[i];
-    (*motion)[i] = MotionOf(map->state().node(node), window->state.node(i));
-    map->SetNode(node, window->state.node(i));
+  motion->resize(window.num_variable);
+  for (int i = 0; i < window.num_variable; ++i) {
+    const int node = window.nodes[i];
+    (*motion)[i] = MotionOf(map->state().node(node), window.state.node(i));
+    map->SetNode(node, window.state.node(i));
   }
-  if (config.camera_variable) map->SetCamera(window->state.camera_from_map);
   return report;
 }
 

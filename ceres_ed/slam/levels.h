@@ -8,11 +8,13 @@
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/slam/deformable_map.h>
 #include <ceres_ed/slam/level_window.h>
+#include <ceres_ed/slam/marginal_level.h>
 #include <ceres_ed/slam/node_prior_source.h>
 #include <ceres_ed/slam/pending_nodes.h>
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/util/status.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -90,6 +92,10 @@ struct LevelsOptions {
   // Rings of PI nodes that Level I moves too; -1 moves every node: the batch solve.
   int rings = 2;
   SeamEdges seam_edges = SeamEdges::kKeep;
+  // Marginalise the PI nodes around Level I instead of holding them: those within
+  // `marginal_reach` rings, or all of them where Level II is full.
+  bool marginal = false;
+  int marginal_reach = 8;
   LevelTwoMode level_two = LevelTwoMode::kLazy;
   LazyOptions lazy;
   LinearSolver linear_solver = LinearSolver::kBlock;
@@ -105,6 +111,8 @@ struct LevelReport {
   SolveStatus status = SolveStatus::kConverged;
   int variable_nodes = 0;
   int point_relevant = 0;
+  // Of the variable nodes.
+  int marginalized = 0;
   int iterations = 0;
   // The energy of the level's problem before and after.
   double initial_energy = 0.0;
@@ -124,6 +132,11 @@ class Levels {
                             NodePriorSource* priors,
                             DeformableMap* map);
 
+  // The same problem once more, until nothing moves any more.
+  LevelReport FinishLevelOne(const FrameObservations& observations,
+                             NodePriorSource* priors,
+                             DeformableMap* map);
+
   // Level II (Eq. 15): moves the PI nodes, all or those that have reason to move.
   LevelReport SolveLevelTwo(NodePriorSource* priors, DeformableMap* map);
 
@@ -141,6 +154,8 @@ class Levels {
   const NodeSet& point_relevant() const { return point_relevant_; }
   // For what changes outside of the levels.
   PendingNodes& pending() { return pending_; }
+  // Null where nothing is marginalised.
+  const MarginalLevel* marginal() const { return marginal_.get(); }
 
   // Drops what the solvers keep from one frame for the next. It saves time, but the order in which
   // they sum depends on it, and with that the last digits.
@@ -161,8 +176,15 @@ class Levels {
 
   explicit Levels(const LevelsOptions& options)
       : options_(options), pending_(options.lazy.tolerance) {}
+  void MakeMarginal();
   void MarkPointRelevant(const FrameObservations& observations);
   void MarkMoved(const DeformableMap& map);
+  // Marks the nodes of the frame, and returns those that a problem of Level I solves for.
+  std::vector<int> ChooseNodes(const FrameObservations& observations, const DeformableMap& map);
+  LevelReport SolveLevelOne(const FrameObservations& observations,
+                            const SolverOptions& options,
+                            NodePriorSource* priors,
+                            DeformableMap* map);
   // Level II of some PI nodes, the others held.
   LevelReport SolveHidden(const std::vector<int>& nodes,
                           NodePriorSource* priors,
@@ -170,12 +192,13 @@ class Levels {
   // Waves from those unsettled PI nodes that `counts`, until there are none.
   template <typename Counts>
   LevelReport SendWaves(int most, Counts counts, NodePriorSource* priors, DeformableMap* map);
-  // Solves a level of the window and takes what it has moved over into the map. `motion` becomes
-  // how far each variable node went.
-  LevelReport Solve(const ProblemBuilder& builder,
-                    const ProblemConfig& config,
-                    LevelSolver* solver,
-                    LevelWindow* window,
+  // Solves a level of the window by `solve(options, &summary)`, with more steps where the first
+  // ones bring nothing, and takes what has moved over into the map. `motion` becomes how far each
+  // variable node went.
+  using SolveWindow = std::function<bool(const SolverOptions&, SolveSummary*)>;
+  LevelReport Solve(const SolverOptions& options,
+                    const SolveWindow& solve,
+                    const LevelWindow& window,
                     DeformableMap* map,
                     std::vector<double>* motion);
 
@@ -184,6 +207,8 @@ class Levels {
   LevelWindowBuilder windows_;
   std::unique_ptr<LevelSolver> level_one_;
   std::unique_ptr<LevelSolver> level_two_;
+  // Null where nothing is marginalised.
+  std::unique_ptr<MarginalLevel> marginal_;
   NodeSet point_relevant_;
   NodeSet moved_;
   PendingNodes pending_;

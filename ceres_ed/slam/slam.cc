@@ -101,6 +101,7 @@ StatusOr<std::unique_ptr<DeformableSlam>> DeformableSlam::Create(const PinholeCa
   LevelsOptions levels = options.levels;
   levels.rings = options.mode == SolveMode::kBatch ? -1 : options.rings;
   levels.seam_edges = options.seam_edges;
+  levels.marginal = options.mode == SolveMode::kMarginal;
   levels.camera_variable = options.camera == CameraMode::kEstimate;
   levels.solver.num_threads = options.num_threads;
   StatusOr<std::unique_ptr<Levels>> created = Levels::Create(levels, registry);

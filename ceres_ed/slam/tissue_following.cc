@@ -91,7 +91,8 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
     memory_.Look(levels_->point_relevant(), map_);
     const LevelReport level = levels_->SolveLevelOne(observations, &memory_, &map_);
     report->point_relevant = level.point_relevant;
-    report->active = level.variable_nodes;
+    report->active = level.variable_nodes - level.marginalized;
+    report->updated_pi = level.marginalized;
     report->energy = level.energy;
     report->iterations += level.iterations;
     report->times.level1 += timer.Restart();
@@ -100,9 +101,15 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
     const double gain = level.initial_energy - level.energy;
     if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
+  if (options_.mode == SolveMode::kMarginal) {
+    const LevelReport level = levels_->FinishLevelOne(observations, &memory_, &map_);
+    report->energy = level.energy;
+    report->iterations += level.iterations;
+    report->times.level1 += timer.Restart();
+  }
   if (options_.mode != SolveMode::kBatch) {
     NoteRecalled();
-    report->updated_pi = levels_->SolveLevelTwo(&memory_, &map_).variable_nodes;
+    report->updated_pi += levels_->SolveLevelTwo(&memory_, &map_).variable_nodes;
     if (catch_up) report->updated_pi += levels_->CatchUp(&memory_, &map_).variable_nodes;
     report->times.level2 += timer.Restart();
     UpdateVisible(map_, pose, camera_, &visible_);

@@ -104,6 +104,25 @@ TEST(DeformableSlam, IsVerifiedWithoutAnEffectOnTheRun) {
   EXPECT_FALSE(plain.reports.back().batch.done);
 }
 
+TEST(DeformableSlam, EndsAtTheBatchMinimumWhenItMarginalises) {
+  SlamOptions options = FastOptions();
+  options.mode = SolveMode::kMarginal;
+  options.verify_every = 2;
+  const SlamRun run(StripSequence(), options);
+  double sum = 0.0;
+  int count = 0;
+  for (const FrameReport& report : run.reports) {
+    if (!report.batch.done) continue;
+    sum += report.batch.Gap();
+    ++count;
+  }
+  EXPECT_EQ(count, 3);
+  EXPECT_LT(sum / count, 1e-4);
+  options.num_threads = 2;
+  options.surface.num_threads = 2;
+  EXPECT_TRUE(Bytes(run) == Bytes(SlamRun(StripSequence(), options)));
+}
+
 TEST(DeformableSlam, GivesTheSameBytesTwiceAndOnTwoThreads) {
   SlamOptions options = FastOptions();
   const std::vector<double> first = Bytes(SlamRun(KidneySequence(), options));

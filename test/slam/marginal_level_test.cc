@@ -1,0 +1,135 @@
+#include "ceres_ed/slam/marginal_level.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <test/problem/strip_builder.h>
+#include <test/slam/level_scenes.h>
+
+namespace ceres_ed {
+namespace {
+
+double LargestDifference(const DeformationState& a, const DeformationState& b) {
+  const std::vector<double> x = AllParameters(a);
+  const std::vector<double> y = AllParameters(b);
+  double largest = x.size() == y.size() ? 0.0 : 1.0;
+  for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
+  return largest;
+}
+
+LevelsOptions Marginal(LevelTwoMode level_two) {
+  LevelsOptions options;
+  options.marginal = true;
+  options.rings = 0;
+  options.level_two = level_two;
+  return options;
+}
+
+TEST(MarginalLevels, TakeTheBatchStep) {
+  LevelScene scene;
+  LevelsOptions marginal = Marginal(LevelTwoMode::kFull);
+  LevelsOptions batch;
+  batch.rings = -1;
+  // Gauss-Newton: damping is another for each of the two.
+  marginal.solver.initial_trust_region_radius = 1e14;
+  batch.solver.initial_trust_region_radius = 1e14;
+  DeformableMap expected = scene.map;
+  const DeformationState before = scene.map.state();
+  const LevelReport whole =
+      MakeLevels(batch)->SolveLevelOne(scene.observations, nullptr, &expected);
+  const LevelReport report =
+      MakeLevels(marginal)->SolveLevelOne(scene.observations, nullptr, &scene.map);
+  ASSERT_EQ(whole.iterations, 1);
+  EXPECT_EQ(report.point_relevant, 16);
+  EXPECT_EQ(report.marginalized, 14 * 4 - 16);
+  EXPECT_EQ(report.variable_nodes, 14 * 4);
+  EXPECT_NEAR(report.initial_energy, whole.initial_energy, 1e-9 * whole.initial_energy);
+  EXPECT_NEAR(report.energy, whole.energy, 1e-9 * whole.energy);
+  EXPECT_LT(LargestDifference(scene.map.state(), expected.state()), 1e-9);
+  EXPECT_GT(LargestDifference(scene.map.state(), before), 1e-2);
+}
+
+TEST(MarginalLevels, FinishAtTheBatchMinimum) {
+  LevelScene scene;
+  LevelsOptions batch;
+  batch.rings = -1;
+  DeformableMap expected = scene.map;
+  const auto reference = MakeLevels(batch);
+  const auto levels = MakeLevels(Marginal(LevelTwoMode::kFull));
+  LevelReport whole;
+  LevelReport report;
+  // Far from the start: losses that give way take more steps than a frame would.
+  for (int k = 0; k < 3; ++k) {
+    whole = reference->FinishLevelOne(scene.observations, nullptr, &expected);
+    report = levels->FinishLevelOne(scene.observations, nullptr, &scene.map);
+  }
+  EXPECT_EQ(whole.status, SolveStatus::kConverged);
+  EXPECT_EQ(report.status, SolveStatus::kConverged);
+  EXPECT_NEAR(report.energy, whole.energy, 1e-4 * whole.energy);
+}
+
+// What is farther than the reach is held, and Level II has it follow.
+TEST(MarginalLevels, EliminateWithinTheirReach) {
+  LevelScene scene(30);
+  LevelsOptions options = Marginal(LevelTwoMode::kLazy);
+  options.rings = 1;
+  options.marginal_reach = 3;
+  const auto levels = MakeLevels(options);
+  const DeformationState before = scene.map.state();
+  const LevelReport report = levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
+  EXPECT_EQ(report.marginalized, 3 * 4);
+  EXPECT_EQ(report.variable_nodes, 8 * 4);
+  EXPECT_EQ(levels->moved_nodes().size(), 5 * 4);
+  for (int j = 8 * 4; j < 30 * 4; ++j) {
+    EXPECT_TRUE(std::equal(before.node(j), before.node(j) + kNodeSize, scene.map.state().node(j)));
+  }
+  EXPECT_FALSE(levels->pending().Unsettled().empty());
+  EXPECT_GT(levels->SolveLevelTwo(nullptr, &scene.map).variable_nodes, 0);
+}
+
+NodeSet Range(int first, int last) {
+  NodeSet nodes;
+  for (int j = first; j < last; ++j) nodes.Add(j);
+  return nodes;
+}
+
+TEST(MarginalLevel, KeepsItsNodesWhileTheyServe) {
+  const LevelScene scene(30);
+  MarginalLevelOptions options;
+  options.rings = 1;
+  options.reach = 4;
+  MarginalLevel level(options);
+  level.Choose(scene.map.graph(), Range(40, 60));
+  EXPECT_EQ(level.kept().size(), 28u);
+  EXPECT_EQ(level.eliminated().size(), 32u);
+  const std::vector<int> eliminated = level.eliminated();
+  // A column on: all of it had stayed.
+  level.Choose(scene.map.graph(), Range(44, 64));
+  EXPECT_EQ(level.num_choices(), 1);
+  EXPECT_EQ(level.eliminated(), eliminated);
+  // Another one had been eliminated.
+  level.Choose(scene.map.graph(), Range(48, 68));
+  EXPECT_EQ(level.num_choices(), 2);
+  EXPECT_EQ(level.kept().size(), 28u);
+  EXPECT_EQ(level.kept().front(), 44);
+  // Many that stayed in vain.
+  level.Choose(scene.map.graph(), Range(52, 60));
+  EXPECT_EQ(level.num_choices(), 3);
+}
+
+TEST(MarginalLevel, UsesAnEliminationAgain) {
+  LevelScene scene;
+  const auto levels = MakeLevels(Marginal(LevelTwoMode::kFull));
+  levels->FinishLevelOne(scene.observations, nullptr, &scene.map);
+  const int before = levels->marginal()->num_eliminations();
+  EXPECT_GT(before, 0);
+  // At the minimum nothing moves any more: the next frame has no need of another one.
+  levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
+  EXPECT_EQ(levels->marginal()->num_eliminations(), before);
+  EXPECT_EQ(levels->marginal()->num_choices(), 1);
+}
+
+}  // namespace
+}  // namespace ceres_ed
