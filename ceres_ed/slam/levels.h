@@ -60,7 +60,7 @@ enum class LevelTwoMode {
 // solved with the rest held; those at the rim that have moved unsettle the nodes behind them.
 struct LazyOptions {
   // Changes that are smaller unsettle nobody, map units, > 0.
-  double tolerance = 0.005;
+  double tolerance = 0.01;
   // Rings around the unsettled nodes, >= 1.
   int reach = 3;
   // Waves a frame at most, >= 1; what is unsettled then waits for the next frame.
