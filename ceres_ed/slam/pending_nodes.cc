@@ -27,13 +27,20 @@ void PendingNodes::NoteSolve(const LevelWindow& window,
     // A Gauss-Newton step from nearby leaves the square of what it corrects.
     Set(window.nodes[i], one_step ? motion[i] * motion[i] : 0.0);
   }
+  // A node follows a mean of what pulls at it: the farthest motion counts, not their sum.
+  farthest_.clear();
   for (int i = 0; i < window.num_variable; ++i) {
     const int node = window.nodes[i];
     for (const int e : graph.incident_edges(node)) {
       const GraphEdge& edge = graph.edges()[e];
-      // Edges come in pairs, one each way: one of the two tells.
-      if (edge.from == node && !solved_.Has(edge.to)) Raise(edge.to, motion[i]);
+      const int other = edge.from == node ? edge.to : edge.from;
+      if (!solved_.Has(other)) farthest_.emplace_back(other, motion[i]);
     }
+  }
+  std::sort(farthest_.begin(), farthest_.end());
+  for (std::size_t k = 0; k < farthest_.size(); ++k) {
+    const bool is_last = k + 1 == farthest_.size() || farthest_[k + 1].first != farthest_[k].first;
+    if (is_last) Raise(farthest_[k].first, farthest_[k].second);
   }
 }
 

@@ -7,15 +7,16 @@
 #include <ceres_ed/slam/level_window.h>
 
 #include <deque>
+#include <utility>
 #include <vector>
 
 namespace ceres_ed {
 
 class CheckpointArchive;
 
-// For each node a bound on how far what pulls at it has moved since it was solved: the sum of what
-// its neighbours did. Lengths are in map units; a node's motion is |dt| + |dA|, which is how far it
-// throws a neighbour one spacing away.
+// For each node a bound on how far what pulls at it has moved since it was solved: the farthest
+// motion among its neighbours, summed over the solves that it wasn't part of. Lengths are in map
+// units; a node's motion is |dt| + |dA|, which is how far it throws a neighbour one spacing away.
 class PendingNodes {
  public:
   // Nodes above `tolerance` > 0 are unsettled.
@@ -50,6 +51,7 @@ class PendingNodes {
   NodeSet listed_;
   // For NoteSolve().
   NodeSet solved_;
+  std::vector<std::pair<int, double>> farthest_;
 };
 
 }  // namespace ceres_ed
