@@ -62,7 +62,7 @@ struct LazyOptions {
   // Changes that are smaller unsettle nobody, map units, > 0.
   double tolerance = 0.01;
   // Rings around the unsettled nodes, >= 1.
-  int reach = 2;
+  int reach = 3;
   // Waves a frame at most, >= 1; what is unsettled then waits for the next frame.
   int waves_per_frame = 1;
   // Unsettled nodes that a wave starts from at most, those with the largest changes, >= 1: keeps a
