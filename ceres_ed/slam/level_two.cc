@@ -94,7 +94,7 @@ LevelReport Levels::SendWaves(int most,
 }
 
 LevelReport Levels::SolveLevelTwo(NodePriorSource* priors, DeformableMap* map) {
-  if (options_.level_two == LevelTwoMode::kLazy) {
+  if (IsLazy()) {
     return SendWaves(
         options_.lazy.waves_per_frame, [](int) { return true; }, priors, map);
   }
@@ -106,7 +106,7 @@ LevelReport Levels::SolveLevelTwo(NodePriorSource* priors, DeformableMap* map) {
 }
 
 LevelReport Levels::CatchUp(NodePriorSource* priors, DeformableMap* map) {
-  if (options_.level_two == LevelTwoMode::kFull) return LevelReport();
+  if (!IsLazy()) return LevelReport();
   return SendWaves(
       kMostWaves, [](int) { return true; }, priors, map);
 }
@@ -114,7 +114,7 @@ LevelReport Levels::CatchUp(NodePriorSource* priors, DeformableMap* map) {
 LevelReport Levels::CatchUp(const std::vector<int>& nodes,
                             NodePriorSource* priors,
                             DeformableMap* map) {
-  if (options_.level_two == LevelTwoMode::kFull) return LevelReport();
+  if (!IsLazy()) return LevelReport();
   NodeSet wanted;
   for (const int node : nodes) wanted.Add(node);
   return SendWaves(

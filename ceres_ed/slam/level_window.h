@@ -6,6 +6,7 @@
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/problem/problem_config.h>
 
+#include <deque>
 #include <vector>
 
 namespace ceres_ed {
@@ -43,7 +44,7 @@ class LevelWindowBuilder {
             int node,
             LevelWindow* window);
 
-  std::vector<int> local_;
+  std::deque<int> local_;
   std::vector<int> taken_;
 };
 

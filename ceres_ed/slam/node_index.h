@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <unordered_map>
 #include <vector>
 
@@ -37,7 +38,7 @@ class NodeIndex {
 
   std::array<std::unordered_map<Key, Cell>, kLevels> levels_;
   // Of each node, the cell of the lowest level.
-  std::vector<Key> cell_of_node_;
+  std::deque<Key> cell_of_node_;
 };
 
 }  // namespace ceres_ed

@@ -168,9 +168,9 @@ CameraPose DeformableSlam::Predict(const SlamFrame& frame) const {
 }
 
 // What comes into view is brought up to date ahead of that.
-void DeformableSlam::CatchUpInView(const CameraPose& camera_from_map) {
+int DeformableSlam::CatchUpInView(const CameraPose& camera_from_map) {
   const std::vector<int> near = map_.NodesNearView(ViewVolume(camera_from_map, camera_));
-  levels_->CatchUp(near, /*priors=*/nullptr, &map_);
+  return levels_->CatchUp(near, /*priors=*/nullptr, &map_).variable_nodes;
 }
 
 bool DeformableSlam::FindCamera(const SlamFrame& frame,
@@ -186,7 +186,7 @@ bool DeformableSlam::FindCamera(const SlamFrame& frame,
     matches = features_.Matches(map_);
   }
   report->times.features += timer.Restart();
-  CatchUpInView(predicted);
+  report->updated_pi += CatchUpInView(predicted);
   report->times.level2 += timer.Restart();
   const VisibilityOptions visibility;
   visible_ = FindVisible(map_, predicted, camera_, visibility);
@@ -230,7 +230,7 @@ bool DeformableSlam::Confirm(const ObservedSurface& surface,
   if (sound && other.quality.Score() > kClearlyBetter * quality.Score()) {
     *pose = other.camera_from_map;
     report->status = FrameStatus::kRelocalized;
-    CatchUpInView(*pose);
+    report->updated_pi += CatchUpInView(*pose);
     visible_ = FindVisible(map_, *pose, camera_, VisibilityOptions());
     features_.Clear();
     return true;

@@ -171,9 +171,11 @@ class DeformableSlam {
                const CameraPose& before,
                CameraPose* pose,
                FrameReport* report);
-  void CatchUpInView(const CameraPose& camera_from_map);
+  // Returns the number of nodes that it has moved.
+  int CatchUpInView(const CameraPose& camera_from_map);
   void FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report);
   void NoteRecalled();
+  void NoteNewNodes();
   double FeatureDeviation() const;
   void Measure(const AssociationResult& association, double noise, FrameReport* report);
   void Fuse(const AssociationResult& association, double noise);

@@ -72,6 +72,20 @@ void DeformableSlam::NoteRecalled() {
   }
 }
 
+// Nodes of the last frame that nothing has seen since, and what their new edges pull at.
+void DeformableSlam::NoteNewNodes() {
+  PendingNodes& pending = levels_->pending();
+  const double change = 2.0 * pending.tolerance();
+  for (int node = nodes_before_growth_; node < map_.graph().num_nodes(); ++node) {
+    if (levels_->moved_nodes().Has(node)) continue;
+    pending.Raise(node, change);
+    for (const int e : map_.graph().incident_edges(node)) {
+      const GraphEdge& edge = map_.graph().edges()[e];
+      if (edge.from == node && !levels_->moved_nodes().Has(edge.to)) pending.Raise(edge.to, change);
+    }
+  }
+}
+
 void DeformableSlam::FollowTissue(const ObservedSurface& surface,
                                   bool catch_up,
                                   FrameReport* report) {
@@ -80,6 +94,7 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
   const double noise = std::max(surface.noise(), kLeastNoise);
   memory_.BeginFrame(levels_->point_relevant(), &map_);
   FrameObservations observations;
+  int marginalized = 0;
   for (int round = 0; round < options_.rounds; ++round) {
     const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
     observations = Observe(association);
@@ -92,7 +107,7 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
     const LevelReport level = levels_->SolveLevelOne(observations, &memory_, &map_);
     report->point_relevant = level.point_relevant;
     report->active = level.variable_nodes - level.marginalized;
-    report->updated_pi = level.marginalized;
+    marginalized = level.marginalized;
     report->energy = level.energy;
     report->iterations += level.iterations;
     report->times.level1 += timer.Restart();
@@ -108,7 +123,9 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
     report->times.level1 += timer.Restart();
   }
   if (options_.mode != SolveMode::kBatch) {
+    report->updated_pi += marginalized;
     NoteRecalled();
+    NoteNewNodes();
     report->updated_pi += levels_->SolveLevelTwo(&memory_, &map_).variable_nodes;
     if (catch_up) report->updated_pi += levels_->CatchUp(&memory_, &map_).variable_nodes;
     report->times.level2 += timer.Restart();
@@ -191,14 +208,6 @@ void DeformableSlam::Grow(const SlamFrame& frame,
   const bool color = frame.color != nullptr && !frame.color->empty();
   nodes_before_growth_ = map_.graph().num_nodes();
   GrowMap(visible_, surface, color ? *frame.color : kNoColor, frame.number, options_.growth, &map_);
-  // New edges pull at both ends.
-  PendingNodes& pending = levels_->pending();
-  for (int node = nodes_before_growth_; node < map_.graph().num_nodes(); ++node) {
-    pending.Raise(node, 2.0 * pending.tolerance());
-    for (const int e : map_.graph().incident_edges(node)) {
-      pending.Raise(map_.graph().edges()[e].to, 2.0 * pending.tolerance());
-    }
-  }
   report->times.grow += timer.Restart();
   if (!color || !options_.features) return;
   if (report->status == FrameStatus::kInitialized) {
