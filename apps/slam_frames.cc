@@ -34,7 +34,7 @@ FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& sla
   record["map_points"] = slam.map().num_points();
   record["pr"] = report.point_relevant;
   record["active"] = report.active;
-  record["updated_pi"] = report.updated_pi;
+  record["updated_pi"] = report.marginalized + report.updated_pi;
   record["points"] = report.points;
   record["inliers"] = report.inliers;
   record["rms_plane"] = report.rms_plane;

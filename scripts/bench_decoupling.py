@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures what decoupling loses and saves: the energy against batch's, time against the map.
 
-Two parts, each of which can be made alone (--only) and then joins what the other left in --work:
+Three parts, each of which can be made alone (--only) and then joins what the others left in --work:
 
   strip  a camera along a long band, 320 x 240, with about 300 nodes in view. Of the frames up to
          each of --sizes nodes: median time of the last 50, whole (t_total of frames.csv: all but
@@ -10,13 +10,15 @@ Two parts, each of which can be made alone (--only) and then joins what the othe
          rings, all of level II) take a few frames from the default run's last checkpoint before
          the size: milliseconds, and in brackets those of the default run on the same frames. Each
          has --budget_s; what fails or gets no frame is said, and not tried at larger sizes
+  paired both ends of that strip in turn, 50 frames each, three times: the ratio that a machine which
+         gets faster and slower doesn't spoil
   gap    whole sequences: a strip of --gap_nodes nodes, and the organs. Each scheme: median time of
          the last 50 frames, relative to batch's; energy above that of a batch solve of the same
-         frame (--verify_every of ed_slam: median and largest); and errors by ed_eval, means: of
+         frame (--verify_every of ed_slam: mean and largest); and errors by ed_eval, means: of
          seen map points to the true surface, of tracking, seen and hidden
 
-Schemes of gap: batch, marginal, default, the paper's with both seams, and 0, 2, 4, 8 rings by
-keep/cut by lazy/full. Frames that are verified don't count for times. Always one thread, one run at
+Schemes of gap: batch, marginal, default, the paper's with both seams, and, on the first sequence,
+0, 2, 4, 8 rings by keep/cut by lazy/full. Frames that are verified don't count for times. Always one thread, one run at
 a time. Writes decoupling.png, decoupling.md and what each part found to --work; sequences that it
 has are used again. Needs python3-numpy and python3-matplotlib. Exits with 1 where the default or
 the batch run fails, with 2 on a wrong call; other failures stand in the tables.
@@ -39,13 +41,13 @@ from pathlib import Path
 import mesh_picture  # noqa: F401
 from bench_tables import check_marks, write_between
 from decoupling_gaps import gaps
-from decoupling_runs import BATCH, DEFAULT, MARGINAL, PAPER_CUT, PAPER_KEEP, growth
-from decoupling_tables import draw, gap_lines, growth_lines
+from decoupling_runs import BATCH, DEFAULT, MARGINAL, PAPER_CUT, PAPER_KEEP, growth, paired
+from decoupling_tables import draw, gap_lines, growth_lines, paired_lines
 from program_runs import PROGRAM, ROOT, RunFailed, wrong_call
 from sequence_runs import SCENES, simulate
 
 BEGIN, END = "<!-- bench_decoupling.py: begin -->", "<!-- bench_decoupling.py: end -->"
-PARTS = ("strip", "gap")
+PARTS = ("strip", "paired", "gap")
 PICTURE = "decoupling.png"
 # What ed_simulate takes as the nodes of a view; nodes_in_view below gives that many PR nodes.
 NODES_OF_VIEW = 300
@@ -62,7 +64,7 @@ def parse_options():
     parser.add_argument("--work", type=Path, default=ROOT / "build/decoupling", metavar="DIR",
                         help="sequences, runs, results and the figure [build/decoupling]")
     parser.add_argument("--only", default=",".join(PARTS), metavar="PARTS",
-                        help="parts to make, with commas between [strip,gap]")
+                        help="parts to make, with commas between [strip,paired,gap]")
     parser.add_argument("--sizes", default="1000,3000,10000,30000,50000", metavar="N,...",
                         help="nodes of the map [1000,3000,10000,30000,50000]")
     parser.add_argument("--speed", type=float, default=0.05, metavar="SHARE",
@@ -75,8 +77,8 @@ def parse_options():
                         help="for each of these runs, and for each run of gap [600]")
     parser.add_argument("--checkpoint_every", type=int, default=50, metavar="N",
                         help="frames between checkpoints of strip [50]")
-    parser.add_argument("--gap_nodes", type=int, default=2000, metavar="N",
-                        help="of the strip in gap [2000]")
+    parser.add_argument("--gap_nodes", type=int, default=1000, metavar="N",
+                        help="of the strip in gap [1000]")
     parser.add_argument("--scenes", default="strip,heart,kidney,stomach", metavar="NAMES",
                         help="of gap [strip,heart,kidney,stomach]")
     parser.add_argument("--verify_every", type=int, default=10, metavar="N",
@@ -157,6 +159,12 @@ def make_strip_part(options):
     return records, any(not record["reached"] for record in records)
 
 
+def make_paired_part(options):
+    sequence, _ = make_strip(options, options.sizes[-1], ["--truth=false"])
+    options.say("strip: both ends in turn")
+    return paired(options, sequence), False
+
+
 def make_gap_part(options):
     sequences = []
     for scene in options.scenes:
@@ -177,18 +185,21 @@ def result_of(options, part):
     """Makes a part, or returns what an earlier run left of it; and whether it failed."""
     path = options.work / f"{part}.json"
     if part in options.only:
-        result, failed = {"strip": make_strip_part, "gap": make_gap_part}[part](options)
+        result, failed = {"strip": make_strip_part, "paired": make_paired_part,
+                          "gap": make_gap_part}[part](options)
         path.write_text(json.dumps(result, indent=1) + "\n")
         return result, failed
     return (json.loads(path.read_text()) if path.exists() else []), False
 
 
-def page_of(records, rows, options):
+def page_of(records, rounds, rows, options):
     words = [f"--{key}" if value is True else f"--{key}={value}"
              for key, value in options.said.items()]
     parts = [f"`{shlex.join(['scripts/bench_decoupling.py', *words])}`:"]
     if records:
         parts.append("\n".join(growth_lines(records)))
+    if rounds:
+        parts.append("\n".join(paired_lines(rounds)))
     if rows:
         parts.append("\n".join(gap_lines(rows)))
     return "\n\n".join(parts)
@@ -203,17 +214,18 @@ def main():
     options.work.mkdir(parents=True, exist_ok=True)
     try:
         records, strip_failed = result_of(options, "strip")
+        rounds, _ = result_of(options, "paired")
         rows, gap_failed = result_of(options, "gap")
     except RunFailed as error:
         print(f"{PROGRAM}: {error}", file=sys.stderr)
         return 1
-    page = page_of(records, rows, options)
+    page = page_of(records, rounds, rows, options)
     print(page)
     draw(records, rows, options.work / PICTURE)
     (options.work / "decoupling.md").write_text(page + "\n")
     if options.json:
         Path(options.json).write_text(json.dumps({"options": options.said, "strip": records,
-                                                  "gap": rows}, indent=1) + "\n")
+                                                  "paired": rounds, "gap": rows}, indent=1) + "\n")
     failed = strip_failed or gap_failed
     if options.readme and failed:
         print(f"{PROGRAM}: a run failed, {options.readme} stays as it is", file=sys.stderr)

@@ -211,3 +211,37 @@ def growth(options, sequence, total_frames, schemes):
         shutil.rmtree(checkpoint, ignore_errors=True)
         records.append(record)
     return records
+
+
+def paired(options, sequence, repeats=3):
+    """Returns times of the default scheme at both ends of a long run, measured in turn.
+
+    A machine that others use may be half as fast a quarter of an hour later, which is what lies
+    between the ends of the run itself. Here WINDOW frames go on from a checkpoint of a small map and
+    from the last one of the long run, one after the other, `repeats` times.
+    """
+    large = options.work / "strip_default"
+    small = options.work / "strip_small"
+    shutil.rmtree(small, ignore_errors=True)
+    flags = ["--live_every=0", f"--checkpoint_every={options.checkpoint_every}"]
+    _, note = slam(options, DEFAULT, sequence, small,
+                   flags + [f"--last={options.checkpoint_every - 1}"])
+    if note:
+        raise RunFailed(f"strip, default, from the start: {note}")
+    rounds = []
+    for _ in range(repeats):
+        ends = []
+        for folder in (small, large):
+            begin = len(read_frames(folder))
+            output = options.work / "strip_beside"
+            shutil.rmtree(output, ignore_errors=True)
+            shutil.copytree(folder, output)
+            rows, note = slam(options, DEFAULT, sequence, output,
+                              ["--resume", "--live_every=0", f"--last={begin + WINDOW}",
+                               "--checkpoint_every=0"])
+            if note or len(rows) < begin + 10:
+                raise RunFailed(f"strip, default, from frame {begin}: {note or 'too few frames'}")
+            # The first of them also sets up what later ones share.
+            ends.append(times(rows[begin + 1:]))
+        rounds.append(ends)
+    return rounds

@@ -85,6 +85,20 @@ def growth_lines(records):
     return lines
 
 
+def paired_lines(rounds):
+    """Returns the Markdown of the ratio between the ends of a long run, measured in turn."""
+    small, large = rounds[0]
+    ratios = [after["ms"] / before["ms"] for before, after in rounds]
+    ratio = statistics.median(ratios)
+    slope_of = math.log(ratio) / math.log(large["nodes"] / small["nodes"])
+    return [f"In turn, {len(rounds)} times {small['frames']} frames from a checkpoint at each end: at "
+            f"{large['nodes']:.0f} nodes a frame takes {ratio:.2f} times as long as at "
+            f"{small['nodes']:.0f} (" + ", ".join(f"{value:.2f}" for value in ratios) + "; "
+            f"{statistics.median(one[1]['ms'] for one in rounds):.0f} against "
+            f"{statistics.median(one[0]['ms'] for one in rounds):.0f} ms): time goes as "
+            f"nodes^{slope_of:.3f}."]
+
+
 def gap_text(row, key):
     value = row.get(key)
     return "-" if value is None else f"{value:.3g}"

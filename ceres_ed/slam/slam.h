@@ -114,7 +114,9 @@ struct FrameReport {
   // PR nodes, and all that Level I has moved.
   int point_relevant = 0;
   int active = 0;
-  // PI nodes that Level II has moved.
+  // PI nodes that Level I has moved by back-substitution, where it marginalises.
+  int marginalized = 0;
+  // PI nodes that Level II has moved, counted by wave.
   int updated_pi = 0;
   // Map points with an observation in this frame, and all.
   int points = 0;
@@ -173,6 +175,8 @@ class DeformableSlam {
                FrameReport* report);
   // Returns the number of nodes that it has moved.
   int CatchUpInView(const CameraPose& camera_from_map);
+  FrameObservations FollowSeen(const ObservedSurface& surface, FrameReport* report);
+  void FollowHidden(bool catch_up, FrameReport* report);
   void FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report);
   void NoteRecalled();
   void NoteNewNodes();

@@ -86,15 +86,20 @@ void DeformableSlam::NoteNewNodes() {
   }
 }
 
-void DeformableSlam::FollowTissue(const ObservedSurface& surface,
-                                  bool catch_up,
-                                  FrameReport* report) {
+// Level I by rounds: associated anew ahead of each step. Returns what the last one looked at.
+FrameObservations DeformableSlam::FollowSeen(const ObservedSurface& surface, FrameReport* report) {
   Timer timer;
   const CameraPose& pose = map_.state().camera_from_map;
   const double noise = std::max(surface.noise(), kLeastNoise);
-  memory_.BeginFrame(levels_->point_relevant(), &map_);
   FrameObservations observations;
-  int marginalized = 0;
+  const auto take = [&](const LevelReport& level) {
+    report->point_relevant = level.point_relevant;
+    report->active = level.variable_nodes - level.marginalized;
+    report->marginalized = level.marginalized;
+    report->energy = level.energy;
+    report->iterations += level.iterations;
+    report->times.level1 += timer.Restart();
+  };
   for (int round = 0; round < options_.rounds; ++round) {
     const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
     observations = Observe(association);
@@ -105,40 +110,46 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
     report->times.associate += timer.Restart();
     memory_.Look(levels_->point_relevant(), map_);
     const LevelReport level = levels_->SolveLevelOne(observations, &memory_, &map_);
-    report->point_relevant = level.point_relevant;
-    report->active = level.variable_nodes - level.marginalized;
-    marginalized = level.marginalized;
-    report->energy = level.energy;
-    report->iterations += level.iterations;
-    report->times.level1 += timer.Restart();
+    take(level);
     UpdateVisible(map_, pose, camera_, &visible_);
     report->times.warp += timer.Restart();
     const double gain = level.initial_energy - level.energy;
     if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
   if (options_.mode == SolveMode::kMarginal) {
-    const LevelReport level = levels_->FinishLevelOne(observations, &memory_, &map_);
-    report->energy = level.energy;
-    report->iterations += level.iterations;
-    report->times.level1 += timer.Restart();
+    take(levels_->FinishLevelOne(observations, &memory_, &map_));
   }
-  if (options_.mode != SolveMode::kBatch) {
-    report->updated_pi += marginalized;
-    NoteRecalled();
-    NoteNewNodes();
-    report->updated_pi += levels_->SolveLevelTwo(&memory_, &map_).variable_nodes;
-    if (catch_up) report->updated_pi += levels_->CatchUp(&memory_, &map_).variable_nodes;
-    report->times.level2 += timer.Restart();
-    UpdateVisible(map_, pose, camera_, &visible_);
-    report->times.warp += timer.Restart();
-  }
+  return observations;
+}
+
+// Level II.
+void DeformableSlam::FollowHidden(bool catch_up, FrameReport* report) {
+  if (options_.mode == SolveMode::kBatch) return;
+  Timer timer;
+  NoteRecalled();
+  NoteNewNodes();
+  report->updated_pi += levels_->SolveLevelTwo(&memory_, &map_).variable_nodes;
+  if (catch_up) report->updated_pi += levels_->CatchUp(&memory_, &map_).variable_nodes;
+  report->times.level2 += timer.Restart();
+  UpdateVisible(map_, map_.state().camera_from_map, camera_, &visible_);
+  report->times.warp += timer.Restart();
+}
+
+void DeformableSlam::FollowTissue(const ObservedSurface& surface,
+                                  bool catch_up,
+                                  FrameReport* report) {
+  memory_.BeginFrame(levels_->point_relevant(), &map_);
+  const FrameObservations observations = FollowSeen(surface, report);
+  FollowHidden(catch_up, report);
   if (batch_ != nullptr && report->number % options_.verify_every == 0) {
     Verify(observations, report);
-    timer.Restart();
   }
+  Timer timer;
+  const double noise = std::max(surface.noise(), kLeastNoise);
   memory_.Keep(levels_->point_relevant(), map_);
   features_.DropOutliers(map_, noise);
-  const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
+  const AssociationResult association =
+      Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());
   Measure(association, noise, report);
   report->times.associate += timer.Restart();
   Fuse(association, surface.noise());

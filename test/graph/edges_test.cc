@@ -13,7 +13,8 @@
 namespace ceres_ed {
 namespace {
 
-std::set<std::pair<int, int>> Pairs(const std::vector<GraphEdge>& edges) {
+template <typename Edges>
+std::set<std::pair<int, int>> Pairs(const Edges& edges) {
   std::set<std::pair<int, int>> pairs;
   for (const GraphEdge& edge : edges) pairs.insert({edge.from, edge.to});
   return pairs;

@@ -277,6 +277,18 @@ TEST_F(LazyLevelTwoTest, MovesWhatHasReasonToMoveAndLeavesTheRest) {
   for (int j = 30 * 4; j < 60 * 4; ++j) EXPECT_TRUE(SameNode(before, map.state(), j)) << j;
 }
 
+TEST_F(LazyLevelTwoTest, WorksAsMuchOnALongerMap) {
+  const LevelScene longer(240);
+  const auto on_short = MakeLevels(Options(LevelTwoMode::kLazy));
+  const auto on_long = MakeLevels(Options(LevelTwoMode::kLazy));
+  DeformableMap short_map = scene_.map;
+  DeformableMap long_map = longer.map;
+  const int moved = RunFrames(3, on_short.get(), &short_map);
+  EXPECT_GT(moved, 0);
+  EXPECT_LT(moved, 3 * 60 * 4 / 2);
+  EXPECT_EQ(RunFrames(3, on_long.get(), &long_map), moved);
+}
+
 TEST_F(LazyLevelTwoTest, CatchesUpWhereItIsAsked) {
   const auto levels = MakeLevels(Options(LevelTwoMode::kLazy));
   DeformableMap map = scene_.map;
