@@ -2,9 +2,9 @@
 #include <ceres_ed/graph/node_neighborhood.h>
 #include <ceres_ed/slam/levels.h>
 #include <ceres_ed/slam/window_observations.h>
+#include <ceres_ed/util/option_check.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 namespace ceres_ed {
@@ -24,11 +24,7 @@ void Add(const LevelReport& wave, LevelReport* all) {
 
 bool LazyOptions::IsValid(std::string* error) const {
   const auto require = [error](bool holds, const char* option, double value, const char* expected) {
-    if (holds) return true;
-    std::ostringstream message;
-    message << option << " is " << value << ", expected " << expected;
-    *error = message.str();
-    return false;
+    return RequireOption(holds, option, value, expected, error);
   };
   return require(tolerance > 0.0, "lazy.tolerance", tolerance, "> 0") &&
          require(reach >= 1, "lazy.reach", reach, ">= 1") &&

@@ -1,11 +1,11 @@
 #include "ceres_ed/slam/slam.h"
 
 #include <ceres_ed/slam/relocalization.h>
+#include <ceres_ed/util/option_check.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 namespace ceres_ed {
@@ -58,11 +58,7 @@ std::string FrameStatusName(FrameStatus status) {
 
 bool SlamOptions::IsValid(std::string* error) const {
   const auto require = [error](bool holds, const char* option, double value, const char* expected) {
-    if (holds) return true;
-    std::ostringstream message;
-    message << option << " is " << value << ", expected " << expected;
-    *error = message.str();
-    return false;
+    return RequireOption(holds, option, value, expected, error);
   };
   return require(rings >= 0, "rings", rings, ">= 0") &&
          require(node_spacing >= 0.0 && std::isfinite(node_spacing),

@@ -3,11 +3,11 @@
 #include <ceres_ed/solver/block_level_solver.h>
 #include <ceres_ed/solver/ceres_level_solver.h>
 #include <ceres_ed/solver/marginal_strategy.h>
+#include <ceres_ed/util/option_check.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
 #include <limits>
-#include <sstream>
 
 namespace ceres_ed {
 namespace {
@@ -104,40 +104,32 @@ class TwoLevelStrategy final : public Strategy {
   std::unique_ptr<LevelSolver> level_two_;
 };
 
-template <typename T>
-bool Require(bool holds, const char* option, T value, const char* expected, std::string* error) {
-  if (holds) return true;
-  std::ostringstream message;
-  message << option << " is " << value << ", expected " << expected;
-  *error = message.str();
-  return false;
-}
-
 }  // namespace
 
 bool SolverOptions::IsValid(std::string* error) const {
-  return Require(max_iterations >= 0, "max_iterations", max_iterations, ">= 0", error) &&
-         Require(
+  return RequireOption(max_iterations >= 0, "max_iterations", max_iterations, ">= 0", error) &&
+         RequireOption(
              function_tolerance >= 0.0, "function_tolerance", function_tolerance, ">= 0", error) &&
-         Require(
+         RequireOption(
              gradient_tolerance >= 0.0, "gradient_tolerance", gradient_tolerance, ">= 0", error) &&
-         Require(parameter_tolerance >= 0.0,
-                 "parameter_tolerance",
-                 parameter_tolerance,
-                 ">= 0",
-                 error) &&
-         Require(initial_trust_region_radius > 0.0,
-                 "initial_trust_region_radius",
-                 initial_trust_region_radius,
-                 "> 0",
-                 error) &&
-         Require(num_threads >= 1, "num_threads", num_threads, ">= 1", error) &&
-         Require(time_limit_s > 0.0, "time_limit_s", time_limit_s, "> 0 seconds", error);
+         RequireOption(parameter_tolerance >= 0.0,
+                       "parameter_tolerance",
+                       parameter_tolerance,
+                       ">= 0",
+                       error) &&
+         RequireOption(initial_trust_region_radius > 0.0,
+                       "initial_trust_region_radius",
+                       initial_trust_region_radius,
+                       "> 0",
+                       error) &&
+         RequireOption(num_threads >= 1, "num_threads", num_threads, ">= 1", error) &&
+         RequireOption(time_limit_s > 0.0, "time_limit_s", time_limit_s, "> 0 seconds", error);
 }
 
 bool StrategyOptions::IsValid(std::string* error) const {
-  return Require(rings >= 0, "rings", rings, ">= 0", error) &&
-         Require(relinearize_above >= 0.0, "relinearize_above", relinearize_above, ">= 0", error);
+  return RequireOption(rings >= 0, "rings", rings, ">= 0", error) &&
+         RequireOption(
+             relinearize_above >= 0.0, "relinearize_above", relinearize_above, ">= 0", error);
 }
 
 std::string SolveStatusName(SolveStatus status) {

@@ -8,11 +8,14 @@
 #include <ceres_ed/slam/levels.h>
 #include <ceres_ed/testing/test_problem.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <test/problem/strip_builder.h>
 #include <test/slam/map_edits.h>
 
 namespace ceres_ed {
@@ -106,6 +109,15 @@ struct LevelScene {
   // Bindings are those of `problem`.
   FrameObservations observations;
 };
+
+// The largest difference of a parameter; 1 at least where they have not as many.
+inline double LargestDifference(const DeformationState& a, const DeformationState& b) {
+  const std::vector<double> x = AllParameters(a);
+  const std::vector<double> y = AllParameters(b);
+  double largest = x.size() == y.size() ? 0.0 : 1.0;
+  for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
+  return largest;
+}
 
 // The same steps from the same start stay together to rounding, whereas how far a search gets is
 // known no better than to the root of it: three steps, whatever they gain.

@@ -5,19 +5,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <test/problem/strip_builder.h>
 #include <test/slam/level_scenes.h>
 
 namespace ceres_ed {
 namespace {
-
-double LargestDifference(const DeformationState& a, const DeformationState& b) {
-  const std::vector<double> x = AllParameters(a);
-  const std::vector<double> y = AllParameters(b);
-  double largest = x.size() == y.size() ? 0.0 : 1.0;
-  for (std::size_t i = 0; i < x.size(); ++i) largest = std::max(largest, std::abs(x[i] - y[i]));
-  return largest;
-}
 
 LevelsOptions Marginal(LevelTwoMode level_two) {
   LevelsOptions options;
