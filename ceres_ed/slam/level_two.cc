@@ -81,6 +81,13 @@ LevelReport Levels::SendWaves(int most,
     NodeSet front;
     for (const int node : seeds) front.Add(node);
     AddRings(map->graph(), options_.lazy.reach, hidden, &front);
+    // A wave over most of them would go on to the rest: one solve takes all.
+    const int num_nodes = map->graph().num_nodes();
+    if (2 * front.size() > num_nodes - point_relevant_.size()) {
+      for (int node = 0; node < num_nodes; ++node) {
+        if (hidden(node)) front.Add(node);
+      }
+    }
     front.Sort();
     const LevelReport report = SolveHidden(front.nodes(), priors, map);
     Add(report, &all);
