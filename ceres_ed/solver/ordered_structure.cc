@@ -18,11 +18,11 @@ BlockStructure Reordered(const BlockStructure& original,
   std::vector<int> sizes;
   sizes.reserve(order.size());
   for (const int block : order) sizes.push_back(original.size(block));
-  std::vector<std::pair<int, int>> pairs;
+  std::vector<BlockPair> pairs;
   pairs.reserve(original.num_entries());
   for (int j = 0; j < original.num_blocks(); ++j) {
     for (int e = original.column_begin(j); e < original.column_begin(j + 1); ++e) {
-      pairs.emplace_back(positions[original.entry_row(e)], positions[j]);
+      pairs.push_back({positions[original.entry_row(e)], positions[j], original.affine_pair(e)});
     }
   }
   return BlockStructure(std::move(sizes), pairs);
