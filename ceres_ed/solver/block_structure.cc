@@ -41,8 +41,10 @@ std::vector<BlockPair> SortedEntries(int num_blocks, const std::vector<BlockPair
 
 }  // namespace
 
-BlockStructure::BlockStructure(std::vector<int> sizes, const std::vector<BlockPair>& pairs)
-    : sizes_(std::move(sizes)) {
+BlockStructure::BlockStructure(std::vector<int> sizes,
+                               const std::vector<BlockPair>& pairs,
+                               int num_dual)
+    : sizes_(std::move(sizes)), num_dual_(num_dual) {
   row_offsets_.reserve(sizes_.size() + 1);
   row_offsets_.push_back(0);
   for (const int size : sizes_) row_offsets_.push_back(row_offsets_.back() + size);

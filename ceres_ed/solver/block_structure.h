@@ -28,11 +28,14 @@ struct BlockPair {
 class BlockStructure {
  public:
   // `sizes[i]` rows of block i. `pairs` of blocks that may be non-zero: any order, any triangle,
-  // repeated or not.
-  BlockStructure(std::vector<int> sizes, const std::vector<BlockPair>& pairs);
+  // repeated or not. The last `num_dual` blocks are dual: the matrix is negative definite on them
+  // and positive definite on the others (symmetric quasi-definite).
+  BlockStructure(std::vector<int> sizes, const std::vector<BlockPair>& pairs, int num_dual = 0);
 
   int num_blocks() const { return static_cast<int>(sizes_.size()); }
   int size(int block) const { return sizes_[block]; }
+  int num_dual() const { return num_dual_; }
+  bool is_dual(int block) const { return block >= num_blocks() - num_dual_; }
   // First scalar row of a block; row_offset(num_blocks()) is the number of scalar rows.
   int row_offset(int block) const { return row_offsets_[block]; }
   int num_rows() const { return row_offsets_.back(); }
@@ -58,6 +61,7 @@ class BlockStructure {
 
  private:
   std::vector<int> sizes_;
+  int num_dual_;
   std::vector<int> row_offsets_;
   std::vector<int> column_begins_;
   std::vector<int> entry_rows_;
