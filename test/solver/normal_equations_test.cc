@@ -16,10 +16,10 @@ namespace {
 // Enough points and nodes for more than one part of the residuals.
 TestProblem MakeLargeProblem(bool has_camera) {
   TestProblemOptions options;
-  options.columns = 10;
-  options.rows = 5;
-  options.points_per_cell = 20;
-  options.observed_columns = 9;
+  options.columns = 6;
+  options.rows = 4;
+  options.points_per_cell = 70;
+  options.observed_columns = 4;
   options.has_camera = has_camera;
   options.target_deviation = 0.1;
   return MakeTestProblem(options);
