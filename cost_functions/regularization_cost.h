@@ -35,15 +35,22 @@ class RegularizationCost {
 
   // It is a point functor on an affine combination of the two nodes, of which the second has no
   // offset: its Jacobian costs next to nothing, and solvers know that A_k does not enter.
+  ceres::CostFunction* MakeCostFunction() const {
+    const double weights[] = {1.0, -1.0};
+    const Eigen::Vector3d offsets[] = {edge_, Eigen::Vector3d::Zero()};
+    return new WarpedPointCost<Scaled>(
+        Scaled{sqrt_alpha_jk_}, BoundPoint(2, weights, offsets, -edge_), false);
+  }
+
   static ceres::CostFunction* Create(const Eigen::Vector3d& g_j,
                                      const Eigen::Vector3d& g_k,
                                      double alpha_jk) {
-    const RegularizationCost cost(g_j, g_k, alpha_jk);
-    const double weights[] = {1.0, -1.0};
-    const Eigen::Vector3d offsets[] = {cost.edge_, Eigen::Vector3d::Zero()};
-    return new WarpedPointCost<Scaled>(
-        Scaled{cost.sqrt_alpha_jk_}, BoundPoint(2, weights, offsets, -cost.edge_), false);
+    return RegularizationCost(g_j, g_k, alpha_jk).MakeCostFunction();
   }
+
+  double sqrt_alpha_jk() const { return sqrt_alpha_jk_; }
+  // g_k - g_j, map units.
+  const Eigen::Vector3d& edge() const { return edge_; }
 
  private:
   struct Scaled {

@@ -1,6 +1,7 @@
 #include "ceres_ed/energy/builtin_energies.h"
 
 #include <ceres_ed/energy/point_energy.h>
+#include <ceres_ed/energy/prior_stores.h>
 
 #include <cmath>
 #include <memory>
@@ -20,9 +21,15 @@ class RotationEnergy final : public EnergyTerm {
   EnergyKind kind() const override { return EnergyKind::kPrior; }
 
   void AddResiduals(const EnergyContext& context, ResidualSink* sink) const override {
+    auto* store = FindStore<RotationStore>(sink);
     for (int j = 0; j < context.graph->num_nodes(); ++j) {
       const BlockRef block = BlockRef::Node(j);
-      sink->Add(std::unique_ptr<ceres::CostFunction>(RotationCost::Create()), &block, 1);
+      if (store != nullptr) {
+        store->Add();
+        sink->AddStored(store, &block, 1, 1.0);
+      } else {
+        sink->Add(std::unique_ptr<ceres::CostFunction>(RotationCost::Create()), &block, 1);
+      }
     }
   }
 };
@@ -33,12 +40,17 @@ class RegularizationEnergy final : public EnergyTerm {
 
   void AddResiduals(const EnergyContext& context, ResidualSink* sink) const override {
     const DeformationGraph& graph = *context.graph;
+    auto* store = FindStore<EdgeStore>(sink);
     for (const GraphEdge& edge : graph.edges()) {
       const BlockRef blocks[] = {BlockRef::Node(edge.from), BlockRef::Node(edge.to)};
-      sink->Add(std::unique_ptr<ceres::CostFunction>(RegularizationCost::Create(
-                    graph.position(edge.from), graph.position(edge.to), edge.weight)),
-                blocks,
-                2);
+      const RegularizationCost cost(
+          graph.position(edge.from), graph.position(edge.to), edge.weight);
+      if (store != nullptr) {
+        store->Add(cost);
+        sink->AddStored(store, blocks, 2, 1.0);
+      } else {
+        sink->Add(std::unique_ptr<ceres::CostFunction>(cost.MakeCostFunction()), blocks, 2);
+      }
     }
   }
 };

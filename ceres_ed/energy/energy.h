@@ -108,6 +108,10 @@ struct EnergyContext {
   const std::vector<Eigen::Vector3d>* node_prior = nullptr;
 };
 
+// Residuals in arrays (residual_store.h).
+class ResidualStore;
+using ResidualStoreFactory = std::unique_ptr<ResidualStore> (*)();
+
 // Where an energy puts its residuals.
 class ResidualSink {
  public:
@@ -119,6 +123,16 @@ class ResidualSink {
                    const BlockRef* blocks,
                    int num_blocks,
                    double weight = 1.0) = 0;
+
+  // For those who write residuals of a new form (point_energy.h and residual_store.h do the rest):
+  // this sink's store that `make` makes, made when it is first asked for; null where the sink takes
+  // cost functions alone.
+  virtual ResidualStore* FindStore(ResidualStoreFactory /*make*/) { return nullptr; }
+  // Adds the residual that was last added to `store`.
+  virtual void AddStored(const ResidualStore* /*store*/,
+                         const BlockRef* /*blocks*/,
+                         int /*num_blocks*/,
+                         double /*weight*/) {}
 };
 
 // One term of the objective, with its parameters set.

@@ -3,6 +3,7 @@
 #define CERES_ED_ENERGY_POINT_ENERGY_H_
 
 #include <ceres_ed/energy/energy.h>
+#include <ceres_ed/energy/point_store.h>
 
 #include <array>
 #include <memory>
@@ -33,6 +34,11 @@ void AddPointResidual(
   if (context.has_camera) {
     blocks[num_blocks++] = BlockRef::CameraRotation();
     blocks[num_blocks++] = BlockRef::CameraTranslation();
+  }
+  if (auto* store = FindStore<FunctorPointStore<Functor>>(sink); store != nullptr) {
+    store->Add(std::move(functor), (*context.points)[index], index, binding, context.has_camera);
+    sink->AddStored(store, blocks.data(), num_blocks, weight);
+    return;
   }
   sink->Add(std::make_unique<WarpedPointCost<Functor>>(
                 std::move(functor), BindContextPoint(context, index), context.has_camera),

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
-#include <ceres/manifold.h>
 #include <glog/logging.h>
 
 namespace ceres_ed {
@@ -22,23 +20,6 @@ int BlockSize(const BlockRef& block) {
       return kTranslationSize;
   }
   LOG(FATAL) << "unknown block kind";
-}
-
-void AddCamera(const ProblemConfig& config, DeformationState* state, BuiltProblem* built) {
-  double* rotation = state->camera_from_map.rotation.coeffs().data();
-  double* translation = state->camera_from_map.translation.data();
-  if (built->problem->HasParameterBlock(rotation)) {
-    built->rotation_manifold = std::make_unique<ceres::EigenQuaternionManifold>();
-    built->problem->SetManifold(rotation, built->rotation_manifold.get());
-    if (!config.camera_variable) built->problem->SetParameterBlockConstant(rotation);
-  }
-  if (built->problem->HasParameterBlock(translation) && !config.camera_variable) {
-    built->problem->SetParameterBlockConstant(translation);
-  }
-}
-
-double* MutableBlockPointer(DeformationState* state, const BlockRef& block) {
-  return const_cast<double*>(BlockPointer(*state, block));
 }
 
 bool IsVariable(const BlockRef& block, const ProblemConfig& config) {
@@ -62,16 +43,6 @@ bool IsIncluded(const BlockRef* blocks, int num_blocks, bool cut, const ProblemC
   return num_variable > 0 && !(cut && num_variable < num_blocks);
 }
 
-ceres::Problem::Options ProblemOptions() {
-  ceres::Problem::Options options;
-  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  // Sizes and aliasing are checked once, by the sink.
-  options.disable_all_safety_checks = true;
-  return options;
-}
-
 }  // namespace
 
 // Checks each residual once, when it is collected.
@@ -85,12 +56,40 @@ class ProblemBuilder::TermSink final : public ResidualSink {
            int num_blocks,
            double weight) override {
     CHECK(cost != nullptr) << "energy '" << term_->label << "' added no cost function";
-    CHECK(std::isfinite(weight) && weight >= 0.0)
-        << "energy '" << term_->label << "': residual weight " << weight;
     const std::vector<int>& sizes = cost->parameter_block_sizes();
     CHECK_EQ(static_cast<int>(sizes.size()), num_blocks) << "energy '" << term_->label << "'";
     for (int i = 0; i < num_blocks; ++i) {
-      CheckBlock(blocks[i], sizes[i]);
+      CHECK_EQ(BlockSize(blocks[i]), sizes[i]) << "energy '" << term_->label << "': block size";
+    }
+    Append(nullptr, static_cast<int>(term_->costs.size()), blocks, num_blocks, weight);
+    term_->costs.push_back(std::move(cost));
+  }
+
+  ResidualStore* FindStore(ResidualStoreFactory make) override {
+    for (const Term::NamedStore& named : term_->stores) {
+      if (named.factory == make) return named.store.get();
+    }
+    term_->stores.push_back({make, make()});
+    return term_->stores.back().store.get();
+  }
+
+  void AddStored(const ResidualStore* store,
+                 const BlockRef* blocks,
+                 int num_blocks,
+                 double weight) override {
+    Append(store, store->size() - 1, blocks, num_blocks, weight);
+  }
+
+ private:
+  void Append(const ResidualStore* store,
+              int index,
+              const BlockRef* blocks,
+              int num_blocks,
+              double weight) {
+    CHECK(std::isfinite(weight) && weight >= 0.0)
+        << "energy '" << term_->label << "': residual weight " << weight;
+    for (int i = 0; i < num_blocks; ++i) {
+      CheckBlock(blocks[i]);
       for (int k = 0; k < i; ++k) {
         CHECK(blocks[k].kind != blocks[i].kind || blocks[k].node != blocks[i].node)
             << "energy '" << term_->label << "': blocks " << k << " and " << i << " are the same";
@@ -98,12 +97,10 @@ class ProblemBuilder::TermSink final : public ResidualSink {
     }
     const int first_block = static_cast<int>(term_->blocks.size());
     term_->blocks.insert(term_->blocks.end(), blocks, blocks + num_blocks);
-    term_->residuals.push_back({std::move(cost), weight, first_block, num_blocks});
+    term_->residuals.push_back({store, index, weight, first_block, num_blocks});
   }
 
- private:
-  void CheckBlock(const BlockRef& block, int size) const {
-    CHECK_EQ(BlockSize(block), size) << "energy '" << term_->label << "': block size";
+  void CheckBlock(const BlockRef& block) const {
     if (block.kind == BlockRef::Kind::kNode) {
       CHECK(block.node >= 0 && block.node < num_nodes_)
           << "energy '" << term_->label << "': node " << block.node << " of " << num_nodes_;
@@ -150,6 +147,8 @@ void ProblemBuilder::CollectResiduals(int term,
   Term& target = terms_[term];
   target.residuals.clear();
   target.blocks.clear();
+  target.costs.clear();
+  for (const Term::NamedStore& named : target.stores) named.store->Clear();
   TermSink sink(&target, graph_.num_nodes(), has_camera_);
   energy.AddResiduals(context, &sink);
 }
@@ -181,25 +180,56 @@ std::vector<char> ProblemBuilder::PointRelevantNodes() const {
   return relevant;
 }
 
+int SelectedResidual::num_residuals() const {
+  return store != nullptr ? store->num_residuals() : cost->num_residuals();
+}
+
+std::shared_ptr<const ceres::CostFunction> SelectedResidual::CostFunction(
+    const DeformationGraph& graph) const {
+  if (store != nullptr) return store->MakeCost(index, blocks, graph);
+  // Somebody else's.
+  return std::shared_ptr<const ceres::CostFunction>(std::shared_ptr<void>(), cost);
+}
+
+SelectedResidual ProblemBuilder::Term::Selected(const Residual& residual) const {
+  SelectedResidual selected;
+  selected.store = residual.store;
+  selected.index = residual.index;
+  if (residual.store == nullptr) selected.cost = costs[residual.index].get();
+  selected.blocks = &blocks[residual.first_block];
+  selected.num_blocks = residual.num_blocks;
+  selected.weight = weight * residual.weight;
+  return selected;
+}
+
 std::vector<SelectedResidual> ProblemBuilder::Select(const ProblemConfig& config) const {
-  CheckConfig(config);
   std::vector<SelectedResidual> selected;
+  Select(config, &selected);
+  return selected;
+}
+
+void ProblemBuilder::Select(const ProblemConfig& config,
+                            std::vector<SelectedResidual>* selected) const {
+  CheckConfig(config);
+  selected->clear();
   for (int t = 0; t < num_terms(); ++t) {
     const Term& term = terms_[t];
     const bool cut = term.kind == EnergyKind::kPrior && config.seam_edges == SeamEdges::kCut;
     for (const Residual& residual : term.residuals) {
-      const double weight = term.weight * residual.weight;
       const BlockRef* blocks = &term.blocks[residual.first_block];
-      if (weight == 0.0 || !IsIncluded(blocks, residual.num_blocks, cut, config)) continue;
-      selected.push_back({residual.cost.get(), blocks, residual.num_blocks, t, weight});
+      if (term.weight * residual.weight == 0.0 ||
+          !IsIncluded(blocks, residual.num_blocks, cut, config)) {
+        continue;
+      }
+      selected->push_back(term.Selected(residual));
+      selected->back().term = t;
     }
   }
   for (const ExtraResidual& extra : config.extra_residuals) {
     const int num_blocks = static_cast<int>(extra.blocks.size());
     if (!IsIncluded(extra.blocks.data(), num_blocks, /*cut=*/false, config)) continue;
-    selected.push_back({extra.cost, extra.blocks.data(), num_blocks, -1, 1.0});
+    selected->push_back({extra.cost, nullptr, -1, extra.blocks.data(), num_blocks, -1, 1.0});
   }
-  return selected;
 }
 
 void ProblemBuilder::CheckConfig(const ProblemConfig& config) const {
@@ -213,77 +243,40 @@ void ProblemBuilder::CheckConfig(const ProblemConfig& config) const {
   }
 }
 
-BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState* state) const {
-  CHECK_EQ(state->num_nodes(), graph_.num_nodes());
-  BuiltProblem built;
-  built.problem = std::make_unique<ceres::Problem>(ProblemOptions());
-  built.camera_variable = config.camera_variable;
-  // Residuals of one term and equal weight share a loss.
-  std::map<std::pair<int, double>, ceres::LossFunction*> losses;
-  const auto loss_for = [&](int term, double weight) -> ceres::LossFunction* {
-    if (term < 0) return nullptr;
-    ceres::LossFunction*& loss = losses[{term, weight}];
-    if (loss == nullptr) {
-      built.losses.push_back(std::make_unique<ceres::ScaledLoss>(
-          MakeLoss(terms_[term].loss).release(), weight, ceres::TAKE_OWNERSHIP));
-      loss = built.losses.back().get();
-    }
-    return loss;
-  };
-  std::vector<char> touched_nodes(graph_.num_nodes(), 0);
-  std::vector<double*> blocks;
-  for (const SelectedResidual& residual : Select(config)) {
-    blocks.clear();
-    for (int i = 0; i < residual.num_blocks; ++i) {
-      const BlockRef& block = residual.blocks[i];
-      blocks.push_back(MutableBlockPointer(state, block));
-      if (block.kind == BlockRef::Kind::kNode) touched_nodes[block.node] = 1;
-    }
-    // Ceres evaluates a cost function it doesn't own only through const methods.
-    built.problem->AddResidualBlock(const_cast<ceres::CostFunction*>(residual.cost),
-                                    loss_for(residual.term, residual.weight),
-                                    blocks.data(),
-                                    residual.num_blocks);
-  }
-  for (int j = 0; j < graph_.num_nodes(); ++j) {
-    if (touched_nodes[j] == 0) continue;
-    if (config.variable_nodes[j] != 0) {
-      ++built.num_variable_nodes;
+TermEnergy ProblemBuilder::Evaluate(const Term& term, const DeformationState& state) const {
+  TermEnergy energy;
+  energy.label = term.label;
+  const std::unique_ptr<ceres::LossFunction> loss = MakeLoss(term.loss);
+  std::vector<const double*> pointers;
+  std::vector<double> residuals;
+  for (const Residual& residual : term.residuals) {
+    const BlockRef* blocks = &term.blocks[residual.first_block];
+    const SelectedResidual selected = term.Selected(residual);
+    residuals.assign(selected.num_residuals(), 0.0);
+    bool valid = false;
+    if (residual.store != nullptr) {
+      valid = residual.store->Evaluate(residual.index, blocks, graph_, state, residuals.data());
     } else {
-      built.problem->SetParameterBlockConstant(state->node(j));
+      pointers.clear();
+      for (int i = 0; i < residual.num_blocks; ++i) {
+        pointers.push_back(BlockPointer(state, blocks[i]));
+      }
+      valid = selected.cost->Evaluate(pointers.data(), residuals.data(), nullptr);
     }
+    double squared_norm = valid ? 0.0 : std::numeric_limits<double>::quiet_NaN();
+    for (const double r : residuals) squared_norm += r * r;
+    double rho[3] = {squared_norm, 1.0, 0.0};
+    if (loss != nullptr) loss->Evaluate(squared_norm, rho);
+    energy.weighted += 0.5 * selected.weight * rho[0];
+    energy.raw += 0.5 * squared_norm;
+    energy.residuals += selected.num_residuals();
   }
-  AddCamera(config, state, &built);
-  return built;
+  return energy;
 }
 
 EnergySummary ProblemBuilder::Evaluate(const DeformationState& state) const {
   EnergySummary summary;
-  std::vector<const double*> blocks;
-  std::vector<double> residuals;
-  for (const Term& term : terms_) {
-    TermEnergy energy;
-    energy.label = term.label;
-    const std::unique_ptr<ceres::LossFunction> loss = MakeLoss(term.loss);
-    for (const Residual& residual : term.residuals) {
-      blocks.clear();
-      for (int i = 0; i < residual.num_blocks; ++i) {
-        blocks.push_back(BlockPointer(state, term.blocks[residual.first_block + i]));
-      }
-      residuals.assign(residual.cost->num_residuals(), 0.0);
-      double squared_norm = std::numeric_limits<double>::quiet_NaN();
-      if (residual.cost->Evaluate(blocks.data(), residuals.data(), nullptr)) {
-        squared_norm = 0.0;
-        for (const double r : residuals) squared_norm += r * r;
-      }
-      double rho[3] = {squared_norm, 1.0, 0.0};
-      if (loss != nullptr) loss->Evaluate(squared_norm, rho);
-      energy.weighted += 0.5 * term.weight * residual.weight * rho[0];
-      energy.raw += 0.5 * squared_norm;
-      energy.residuals += residual.cost->num_residuals();
-    }
-    summary.terms.push_back(std::move(energy));
-  }
+  for (const Term& term : terms_) summary.terms.push_back(Evaluate(term, state));
   return summary;
 }
 

@@ -4,6 +4,7 @@
 
 #include <ceres_ed/energy/energy.h>
 #include <ceres_ed/energy/energy_spec.h>
+#include <ceres_ed/energy/residual_store.h>
 #include <ceres_ed/problem/problem_config.h>
 
 #include <memory>
@@ -16,10 +17,12 @@
 
 namespace ceres_ed {
 
-// A ceres::Problem over the blocks of one DeformationState, with the losses that it uses. Cost
-// functions stay with the builder: both must outlive this, and the state must not be resized.
+// A ceres::Problem over the blocks of one DeformationState, with the losses that it uses. The cost
+// functions of energies that came as such stay with the builder: it and the state must outlive
+// this, and the state must not be resized.
 struct BuiltProblem {
   // Declared ahead of the problem, which refers to them.
+  std::vector<std::shared_ptr<const ceres::CostFunction>> costs;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses;
   std::unique_ptr<ceres::Manifold> rotation_manifold;
   std::unique_ptr<ceres::Problem> problem;
@@ -49,13 +52,20 @@ struct EnergySummary {
 // One residual block of a subproblem; what it points to belongs to the builder, or to the config
 // where it is one of its extra residuals.
 struct SelectedResidual {
+  // Null where it is residual `index` of `store`.
   const ceres::CostFunction* cost = nullptr;
+  const ResidualStore* store = nullptr;
+  int index = -1;
   const BlockRef* blocks = nullptr;
   int num_blocks = 0;
   // -1 for an extra residual.
   int term = -1;
   // Weight of the term times that of the residual.
   double weight = 1.0;
+
+  int num_residuals() const;
+  // `cost`, or one that is made of what the store has.
+  std::shared_ptr<const ceres::CostFunction> CostFunction(const DeformationGraph& graph) const;
 };
 
 // Collects the residuals of energy terms once, and builds any number of Ceres problems from them.
@@ -95,6 +105,8 @@ class ProblemBuilder {
   // extra ones: those of positive weight that touch something variable and nothing eliminated, less
   // the priors that kCut takes out at the seam. Looks at `config`, which must outlive the result.
   std::vector<SelectedResidual> Select(const ProblemConfig& config) const;
+  // The same into a vector that is there.
+  void Select(const ProblemConfig& config, std::vector<SelectedResidual>* selected) const;
 
   // The problem of `config` over the blocks of `state`. Blocks that residuals touch and that aren't
   // variable are constant.
@@ -105,9 +117,11 @@ class ProblemBuilder {
   EnergySummary Evaluate(const DeformationState& state) const;
 
  private:
-  // A residual block: its cost function and where its blocks stand in Term::blocks.
+  // A residual block: where its function and its blocks stand in the term.
   struct Residual {
-    std::unique_ptr<ceres::CostFunction> cost;
+    // Null where it is in Term::costs.
+    const ResidualStore* store = nullptr;
+    int index = 0;
     double weight = 1.0;
     int first_block = 0;
     int num_blocks = 0;
@@ -119,10 +133,20 @@ class ProblemBuilder {
     LossSpec loss;
     std::vector<Residual> residuals;
     std::vector<BlockRef> blocks;
+    std::vector<std::unique_ptr<ceres::CostFunction>> costs;
+    // Kept when residuals are collected anew, with their memory.
+    struct NamedStore {
+      ResidualStoreFactory factory = nullptr;
+      std::unique_ptr<ResidualStore> store;
+    };
+    std::vector<NamedStore> stores;
+
+    SelectedResidual Selected(const Residual& residual) const;
   };
   class TermSink;
 
   void CheckConfig(const ProblemConfig& config) const;
+  TermEnergy Evaluate(const Term& term, const DeformationState& state) const;
 
   const DeformationGraph& graph_;
   const bool has_camera_;

@@ -20,6 +20,32 @@ constexpr int kMaxConsecutiveInvalidSteps = 5;
 // Damping of a parameter that nothing curves, relative to the mean of all.
 constexpr double kMinRelativeDiagonal = 1e-6;
 
+// The variable parameters of a state, to go back to: a step costs nothing for what it doesn't move.
+class SavedUnknowns {
+ public:
+  void Save(const NormalEquations& equations, const DeformationState& state) {
+    camera_ = state.camera_from_map;
+    nodes_.resize(equations.variable_nodes().size() * kNodeSize);
+    double* saved = nodes_.data();
+    for (const int node : equations.variable_nodes()) {
+      saved = std::copy_n(state.node(node), kNodeSize, saved);
+    }
+  }
+
+  void Restore(const NormalEquations& equations, DeformationState* state) const {
+    state->camera_from_map = camera_;
+    const double* saved = nodes_.data();
+    for (const int node : equations.variable_nodes()) {
+      std::copy_n(saved, kNodeSize, state->node(node));
+      saved += kNodeSize;
+    }
+  }
+
+ private:
+  CameraPose camera_;
+  std::vector<double> nodes_;
+};
+
 // One Levenberg-Marquardt minimisation.
 class Minimizer {
  public:
@@ -60,6 +86,7 @@ class Minimizer {
   std::vector<double> values_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;
+  SavedUnknowns before_;
   // The equations at a candidate, swapped in when it is accepted.
   std::vector<double> candidate_values_;
   Eigen::VectorXd candidate_gradient_;
@@ -80,21 +107,21 @@ Minimizer::Step Minimizer::TakeStep(bool last) {
   const double tolerance = options_.parameter_tolerance;
   if (delta.norm() <= tolerance * (norm + tolerance)) return Step::kConverged;
 
-  DeformationState candidate = *state_;
-  equations_.Plus(delta, &candidate);
+  before_.Save(equations_, *state_);
+  equations_.Plus(delta, state_);
   double candidate_cost = 0.0;
-  const bool valid = last
-                         ? equations_.EvaluateCost(candidate, options_.num_threads, &candidate_cost)
-                         : equations_.Evaluate(candidate,
-                                               options_.num_threads,
-                                               &candidate_cost,
-                                               &candidate_values_,
-                                               &candidate_gradient_);
-  if (!valid) return Step::kInvalid;
+  const bool valid = last ? equations_.EvaluateCost(*state_, options_.num_threads, &candidate_cost)
+                          : equations_.Evaluate(*state_,
+                                                options_.num_threads,
+                                                &candidate_cost,
+                                                &candidate_values_,
+                                                &candidate_gradient_);
   const double decrease = cost_ - candidate_cost;
   const double quality = decrease / model_decrease;
-  if (!(quality > kMinRelativeDecrease)) return Step::kRejected;
-  *state_ = std::move(candidate);
+  if (!valid || !(quality > kMinRelativeDecrease)) {
+    before_.Restore(equations_, state_);
+    return valid ? Step::kRejected : Step::kInvalid;
+  }
   const bool converged = std::abs(decrease) <= options_.function_tolerance * cost_;
   cost_ = candidate_cost;
   if (!last) {
@@ -166,13 +193,13 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
 
 }  // namespace
 
-void BlockLevelSolver::UpdateStructure(const ProblemConfig& config, NormalEquations* equations) {
-  const std::vector<int> sizes = equations->BlockSizes();
+void BlockLevelSolver::UpdateStructure(const ProblemConfig& config) {
+  const std::vector<int> sizes = equations_.BlockSizes();
   const bool same_unknowns =
       structure_ != nullptr && variable_nodes_ == config.variable_nodes && sizes_ == sizes;
-  if (same_unknowns && equations->SetStructure(structure_.get())) return;
+  if (same_unknowns && equations_.SetStructure(structure_.get())) return;
   if (!same_unknowns) pairs_.clear();
-  const std::vector<BlockPair> pairs = equations->BlockPairs();
+  const std::vector<BlockPair> pairs = equations_.BlockPairs();
   pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
   variable_nodes_ = config.variable_nodes;
   sizes_ = sizes;
@@ -181,7 +208,7 @@ void BlockLevelSolver::UpdateStructure(const ProblemConfig& config, NormalEquati
   structure_ = std::make_unique<BlockStructure>(sizes_, pairs_);
   pairs_ = structure_->Pairs();
   cholesky_ = std::make_unique<BlockCholesky>(*structure_);
-  CHECK(equations->SetStructure(structure_.get()));
+  CHECK(equations_.SetStructure(structure_.get()));
 }
 
 bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
@@ -192,23 +219,23 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
   const ScopedSerialLinearAlgebra serial;
   LevelSummary level;
   Timer timer;
-  NormalEquations equations(builder, config);
-  level.num_variable_nodes = equations.num_variable_nodes();
-  if (level.num_variable_nodes == 0 && !equations.camera_variable()) {
+  equations_.Build(builder, config);
+  level.num_variable_nodes = equations_.num_variable_nodes();
+  if (level.num_variable_nodes == 0 && !equations_.camera_variable()) {
     summary->status = SolveStatus::kConverged;
     summary->message = "nothing to move";
     summary->levels.push_back(level);
     return true;
   }
-  UpdateStructure(config, &equations);
+  UpdateStructure(config);
   level.build_time_s = timer.Restart();
-  DeformationState solution = *state;
-  Minimizer(equations, *structure_, options, cholesky_.get(), &solution).Run(&level, summary);
+  SavedUnknowns before;
+  before.Save(equations_, *state);
+  Minimizer(equations_, *structure_, options, cholesky_.get(), state).Run(&level, summary);
   level.solve_time_s = timer.Seconds();
   summary->levels.push_back(level);
-  if (!summary->IsUsable()) return false;
-  *state = std::move(solution);
-  return true;
+  if (!summary->IsUsable()) before.Restore(equations_, state);
+  return summary->IsUsable();
 }
 
 }  // namespace ceres_ed

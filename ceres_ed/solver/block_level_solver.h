@@ -26,9 +26,11 @@ class BlockLevelSolver final : public LevelSolver {
              SolveSummary* summary) override;
 
  private:
-  // Sees to it that `equations` have a structure and a factor that fit them.
-  void UpdateStructure(const ProblemConfig& config, NormalEquations* equations);
+  // Sees to it that the equations have a structure and a factor that fit them.
+  void UpdateStructure(const ProblemConfig& config);
 
+  // Those of the last problem, kept for their memory.
+  NormalEquations equations_;
   std::vector<char> variable_nodes_;
   std::vector<int> sizes_;
   std::vector<BlockPair> pairs_;

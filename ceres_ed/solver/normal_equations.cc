@@ -1,15 +1,11 @@
 #include "ceres_ed/solver/normal_equations.h"
 
-#include <ceres_ed/solver/point_linearization.h>
+#include <ceres_ed/energy/prior_stores.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <utility>
 
 #include <ceres/manifold.h>
-#include <glog/logging.h>
 
 namespace ceres_ed {
 namespace {
@@ -25,134 +21,114 @@ const QuadraticCost* AsNodeQuadratic(const SelectedResidual& residual) {
   return dynamic_cast<const QuadraticCost*>(residual.cost);
 }
 
-}  // namespace
-
-// Finds the item on the same warped point, by open addressing.
-class NormalEquations::PointTable {
- public:
-  explicit PointTable(std::size_t num_residuals) {
-    std::size_t size = 16;
-    while (size < 2 * num_residuals) size *= 2;
-    slots_.assign(size, -1);
-  }
-
-  // The item on the point of `residual`; -1 where there is none yet: the next item is noted as it.
-  int FindOrAdd(const std::vector<Item>& items,
-                const SelectedResidual& residual,
-                const PointCostFunction& cost) {
-    const std::size_t mask = slots_.size() - 1;
-    for (std::size_t slot = Hash(residual, cost.point()) & mask;; slot = (slot + 1) & mask) {
-      const int item = slots_[slot];
-      if (item < 0) {
-        slots_[slot] = static_cast<int>(items.size());
-        return -1;
-      }
-      if (IsSame(items[item], residual, cost)) return item;
-    }
-  }
-
- private:
-  static std::size_t Hash(const SelectedResidual& residual, const BoundPoint& point) {
-    // Where a point lies relative to its first node tells it from almost all others.
-    std::uint64_t bits[2];
-    std::memcpy(bits, point.offset(0).data(), sizeof(bits));
-    std::uint64_t hash = bits[0] ^ (bits[1] * 0x9e3779b97f4a7c15ULL) ^
-                         static_cast<std::uint64_t>(residual.blocks[0].node);
-    hash = (hash ^ (hash >> 32)) * 0xd6e8feb86659fd93ULL;
-    return static_cast<std::size_t>(hash ^ (hash >> 32));
-  }
-
-  static bool IsSame(const Item& item,
-                     const SelectedResidual& residual,
-                     const PointCostFunction& cost) {
-    const BoundPoint& a = item.point->point();
-    const BoundPoint& b = cost.point();
-    if (item.point->has_camera() != cost.has_camera() || a.num_nodes() != b.num_nodes()) {
-      return false;
-    }
-    for (int i = 0; i < a.num_nodes(); ++i) {
-      if (item.residual.blocks[i].node != residual.blocks[i].node || a.weight(i) != b.weight(i) ||
-          a.offset(i) != b.offset(i)) {
-        return false;
-      }
-    }
+// Whether a residual depends on the affine matrix of its `i`-th block; true where that isn't known.
+bool TouchesAffine(const SelectedResidual& residual, int i) {
+  if (residual.store == nullptr || residual.store->form() != ResidualStore::Form::kEdge)
     return true;
-  }
-
-  std::vector<int> slots_;
-};
-
-int NormalEquations::Item::LinearizationSize() const {
-  if (point != nullptr) return PointLinearization::kNumDoubles;
-  if (quadratic != nullptr) return quadratic->size();
-  return num_residuals * (1 + width);
+  const auto* edges = static_cast<const EdgeStore*>(residual.store);
+  return i == 0 && !edges->cost(residual.index).edge().isZero(0.0);
 }
 
-NormalEquations::NormalEquations(const ProblemBuilder& builder, const ProblemConfig& config) {
-  const std::vector<SelectedResidual> selected = builder.Select(config);
-  std::vector<char> touched(config.variable_nodes.size(), 0);
-  for (const SelectedResidual& residual : selected) {
+}  // namespace
+
+int NormalEquations::Item::LinearizationSize() const {
+  return quadratic != nullptr ? quadratic->size() : cost->num_residuals() * (1 + width);
+}
+
+void NormalEquations::Clear() {
+  variable_nodes_.clear();
+  camera_variable_ = false;
+  losses_.clear();
+  edges_.clear();
+  rotations_.clear();
+  items_.clear();
+  parts_.clear();
+  slots_.clear();
+  max_residuals_ = max_blocks_ = max_linearization_ = 0;
+  structure_ = nullptr;
+}
+
+void NormalEquations::Build(const ProblemBuilder& builder, const ProblemConfig& config) {
+  Clear();
+  builder.Select(config, &selected_);
+  const int num_nodes = builder.graph().num_nodes();
+  block_of_node_.assign(num_nodes, -1);
+  for (const SelectedResidual& residual : selected_) {
     for (int i = 0; i < residual.num_blocks; ++i) {
       const BlockRef& block = residual.blocks[i];
       if (block.kind != BlockRef::Kind::kNode) {
         camera_variable_ |= config.camera_variable;
       } else if (config.variable_nodes[block.node] != 0) {
-        touched[block.node] = 1;
+        block_of_node_[block.node] = 0;
       }
     }
   }
-  for (int j = 0; j < static_cast<int>(touched.size()); ++j) {
-    if (touched[j] != 0) variable_nodes_.push_back(j);
+  for (int j = 0; j < num_nodes; ++j) {
+    if (block_of_node_[j] < 0) continue;
+    block_of_node_[j] = num_variable_nodes();
+    variable_nodes_.push_back(j);
   }
-  AddItems(builder, selected);
+  AddResiduals(builder, selected_);
 }
 
-NormalEquations::NormalEquations(const ProblemBuilder& builder,
-                                 const std::vector<SelectedResidual>& residuals,
-                                 const std::vector<int>& variable_nodes)
-    : variable_nodes_(variable_nodes) {
-  AddItems(builder, residuals);
+void NormalEquations::Build(const ProblemBuilder& builder,
+                            const std::vector<SelectedResidual>& residuals,
+                            const std::vector<int>& variable_nodes) {
+  Clear();
+  variable_nodes_ = variable_nodes;
+  block_of_node_.assign(builder.graph().num_nodes(), -1);
+  for (int i = 0; i < num_variable_nodes(); ++i) block_of_node_[variable_nodes_[i]] = i;
+  AddResiduals(builder, residuals);
 }
 
-void NormalEquations::AddItems(const ProblemBuilder& builder,
-                               const std::vector<SelectedResidual>& residuals) {
+void NormalEquations::AddResiduals(const ProblemBuilder& builder,
+                                   const std::vector<SelectedResidual>& residuals) {
   for (int t = 0; t < builder.num_terms(); ++t) losses_.push_back(MakeLoss(builder.loss(t)));
-  std::vector<int> block_of_node(builder.graph().num_nodes(), -1);
-  for (int i = 0; i < num_variable_nodes(); ++i) block_of_node[variable_nodes_[i]] = i;
-  items_.reserve(residuals.size());
-  PointTable points(residuals.size());
-  for (const SelectedResidual& residual : residuals) AddItem(residual, block_of_node, &points);
-}
-
-void NormalEquations::AddItem(const SelectedResidual& residual,
-                              const std::vector<int>& block_of_node,
-                              PointTable* points) {
-  Item item;
-  item.residual = residual;
-  item.point = dynamic_cast<const PointCostFunction*>(residual.cost);
-  if (Loss(residual.term) == nullptr) item.quadratic = AsNodeQuadratic(residual);
-  item.num_residuals = residual.cost->num_residuals();
-  max_residuals_ = std::max(max_residuals_, item.num_residuals);
-  if (item.point != nullptr) {
-    const int found = points->FindOrAdd(items_, residual, *item.point);
-    if (found >= 0) {
-      Item& shared = items_[found];
-      (shared.more < 0 ? shared.more : more_[shared.last_more].next) =
-          static_cast<int>(more_.size());
-      shared.last_more = static_cast<int>(more_.size());
-      more_.push_back({item.point, residual.term, residual.weight, -1});
-      return;
+  points_.Build(builder.graph(), residuals);
+  for (const SelectedResidual& residual : residuals) {
+    const bool has_form = residual.store != nullptr;
+    if (has_form && residual.store->form() == ResidualStore::Form::kPoint) continue;
+    if (has_form && Loss(residual.term) == nullptr) {
+      AddClosedForm(residual);
+    } else {
+      AddItem(residual, builder.graph());
     }
   }
+  AddSlots(builder.graph());
+  DealOut(builder.graph());
+}
+
+void NormalEquations::AddClosedForm(const SelectedResidual& residual) {
+  const int first = residual.blocks[0].node;
+  if (residual.store->form() == ResidualStore::Form::kRotation) {
+    rotations_.push_back({residual.weight, first, block_of_node_[first], 0});
+    return;
+  }
+  Edge edge;
+  edge.cost = &static_cast<const EdgeStore*>(residual.store)->cost(residual.index);
+  edge.weight = residual.weight;
+  for (int i = 0; i < 2; ++i) {
+    edge.nodes[i] = residual.blocks[i].node;
+    edge.blocks[i] = block_of_node_[edge.nodes[i]];
+  }
+  edges_.push_back(edge);
+}
+
+void NormalEquations::AddItem(const SelectedResidual& residual, const DeformationGraph& graph) {
+  Item item;
+  item.residual = residual;
+  item.cost = residual.CostFunction(graph);
+  if (Loss(residual.term) == nullptr) item.quadratic = AsNodeQuadratic(residual);
   item.first_part = static_cast<int>(parts_.size());
+  item.num_parts = residual.num_blocks;
   for (int i = 0; i < residual.num_blocks; ++i) {
     const BlockRef& block = residual.blocks[i];
     Part part;
     part.column = item.width;
     if (block.kind == BlockRef::Kind::kNode) {
-      part.block = block_of_node[block.node];
+      part.block = block_of_node_[block.node];
       part.width = part.block >= 0 ? kNodeSize : 0;
-      part.affine = item.point == nullptr || !item.point->point().offset(i).isZero(0.0);
+      part.affine = TouchesAffine(residual, i);
     } else {
       part.block = camera_variable_ ? num_variable_nodes() : -1;
       part.offset = block.kind == BlockRef::Kind::kCameraRotation ? 0 : kRotationTangent;
@@ -161,52 +137,16 @@ void NormalEquations::AddItem(const SelectedResidual& residual,
     parts_.push_back(part);
     item.width += part.width;
   }
-  item.num_parts = residual.num_blocks;
-  items_.push_back(item);
+  max_residuals_ = std::max(max_residuals_, item.cost->num_residuals());
   max_blocks_ = std::max(max_blocks_, residual.num_blocks);
   max_linearization_ = std::max(max_linearization_, item.LinearizationSize());
+  items_.push_back(std::move(item));
 }
 
 std::vector<int> NormalEquations::BlockSizes() const {
   std::vector<int> sizes(variable_nodes_.size(), kNodeSize);
   if (camera_variable_) sizes.push_back(kCameraTangent);
   return sizes;
-}
-
-std::vector<BlockPair> NormalEquations::BlockPairs() const {
-  std::vector<BlockPair> pairs;
-  for (const Item& item : items_) {
-    const Part* parts = &parts_[item.first_part];
-    for (int a = 0; a < item.num_parts; ++a) {
-      for (int b = 0; b < a; ++b) {
-        if (parts[a].block < 0 || parts[b].block < 0 || parts[a].block == parts[b].block) continue;
-        pairs.push_back({parts[a].block, parts[b].block, parts[a].affine && parts[b].affine});
-      }
-    }
-  }
-  return BlockStructure(BlockSizes(), pairs).Pairs();
-}
-
-bool NormalEquations::SetStructure(const BlockStructure* structure) {
-  structure_ = nullptr;
-  entries_.clear();
-  for (Item& item : items_) {
-    item.first_entry = static_cast<int>(entries_.size());
-    const Part* parts = &parts_[item.first_part];
-    for (int a = 0; a < item.num_parts; ++a) {
-      for (int b = 0; b <= a; ++b) {
-        const int row = std::max(parts[a].block, parts[b].block);
-        const int column = std::min(parts[a].block, parts[b].block);
-        entries_.push_back(column < 0 ? -1 : structure->FindEntry(row, column));
-        if (column < 0) continue;
-        const int entry = entries_.back();
-        const bool affine = parts[a].affine && parts[b].affine;
-        if (entry < 0 || (affine && !structure->affine_pair(entry))) return false;
-      }
-    }
-  }
-  structure_ = structure;
-  return true;
 }
 
 void NormalEquations::Plus(const Eigen::VectorXd& delta, DeformationState* state) const {

@@ -4,31 +4,51 @@
 
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/block_structure.h>
-#include <ceres_ed/solver/point_linearization.h>
+#include <ceres_ed/solver/point_groups.h>
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
 #include <Eigen/Core>
+#include <ceres/cost_function.h>
 #include <ceres/loss_function.h>
 #include <cost_functions/quadratic_cost.h>
-#include <cost_functions/warped_point_cost.h>
+#include <cost_functions/regularization_cost.h>
 
 namespace ceres_ed {
 
 // Unknowns: one block of 12 a variable node, in the order of the nodes, then one of 6 for a
 // variable camera (rotation in the tangent space of ceres::EigenQuaternionManifold, then
 // translation). Builder and config must outlive this, and their residuals stay as they are.
+//
+// Residuals are taken by their form: points by the nodes that carry them, edges and rotations in
+// closed form where they have no loss, all others by their Jacobians. They are dealt out to parts,
+// strips of the graph that are the same at any number of threads: what one part alone touches it
+// sums up in place, what it shares with others in a place of its own, and these are added up at the
+// end.
 class NormalEquations {
  public:
-  NormalEquations(const ProblemBuilder& builder, const ProblemConfig& config);
-  // Of some residuals of the builder alone, with the blocks in the order of `variable_nodes`; the
-  // camera is held.
+  NormalEquations() = default;
+  NormalEquations(const ProblemBuilder& builder, const ProblemConfig& config) {
+    Build(builder, config);
+  }
   NormalEquations(const ProblemBuilder& builder,
                   const std::vector<SelectedResidual>& residuals,
-                  const std::vector<int>& variable_nodes);
+                  const std::vector<int>& variable_nodes) {
+    Build(builder, residuals, variable_nodes);
+  }
+
+  // Takes the problem of `config`; what was there is gone, its memory is kept.
+  void Build(const ProblemBuilder& builder, const ProblemConfig& config);
+  // Takes some residuals of the builder alone, with the blocks in the order of `variable_nodes`;
+  // the camera is held.
+  void Build(const ProblemBuilder& builder,
+             const std::vector<SelectedResidual>& residuals,
+             const std::vector<int>& variable_nodes);
 
   int num_variable_nodes() const { return static_cast<int>(variable_nodes_.size()); }
+  const std::vector<int>& variable_nodes() const { return variable_nodes_; }
   bool camera_variable() const { return camera_variable_; }
   // Rows of each block.
   std::vector<int> BlockSizes() const;
@@ -74,53 +94,92 @@ class NormalEquations {
     // Whether more than the translation of a node enters.
     bool affine = true;
   };
-  // A residual block, or all those on one warped point: these share their blocks, and the products
-  // of their Jacobians are added up by the point before they are spread over the nodes.
+  // A residual block that has no form of its own, or that one of nodes without a loss of which the
+  // square of the Jacobian is known.
   struct Item {
     SelectedResidual residual;
-    // Set where the cost functions are on a warped point: their Jacobian has a form of its own.
-    const PointCostFunction* point = nullptr;
-    // Set where it is a quadratic of nodes without a loss: the square of its Jacobian is known.
+    std::shared_ptr<const ceres::CostFunction> cost;
     const QuadraticCost* quadratic = nullptr;
-    // The next residual on the same point, into more_; -1 behind the last one.
-    int more = -1;
-    int last_more = -1;
-    int num_residuals = 0;
     int width = 0;
     int first_part = 0;
     int num_parts = 0;
-    // Into entries_: num_parts * (num_parts + 1) / 2 entries of the structure.
-    int first_entry = 0;
+    // Of parts a >= b: first_slot + a (a + 1) / 2 + b. All slots are in this order.
+    int first_slot = 0;
 
     // Doubles that the item's linearisation takes.
     int LinearizationSize() const;
   };
-  // A further residual on the point of an item.
-  struct PointResidual {
-    const PointCostFunction* cost = nullptr;
-    int term = -1;
+  // E_reg and E_rot. A block is -1 where its node is held.
+  struct Edge {
+    const RegularizationCost* cost = nullptr;
     double weight = 1.0;
-    int next = -1;
+    int nodes[2] = {-1, -1};
+    int blocks[2] = {-1, -1};
+    int first_slot = 0;
   };
-  class PointTable;
-  // Buffers of one thread. A linearisation is corrected for the loss; of a general item it is the
-  // residuals, then the parts of the Jacobian one after the other, each row-major, and of a point
-  // PointLinearization, and of a quadratic its gradient.
-  struct Scratch {
-    explicit Scratch(const NormalEquations& equations);
-
-    std::vector<double> linearization;
-    std::vector<double> residuals;
-    // By a quaternion, or by a point.
-    std::vector<double> derivative;
-    std::vector<const double*> blocks;
-    std::vector<double*> jacobians;
+  struct Rotation {
+    double weight = 1.0;
+    int node = -1;
+    int block = -1;
+    int slot = 0;
   };
+  // Two blocks that a residual joins, and the entry of the structure; row -1 where one is held. A
+  // diagonal slot comes with its rows of the gradient.
+  struct Slot {
+    int row = -1;
+    int column = -1;
+    bool affine = true;
+    int entry = -1;
+    // Where its values, and its part of the gradient, go: into those of the structure, or, where
+    // other parts add to the entry too, num_values() + the place in `shared`.
+    std::ptrdiff_t target = 0;
+  };
+  // What goes from `shared` into an entry.
+  struct Share {
+    int entry = -1;
+    int row = -1;
+    int column = -1;
+    std::ptrdiff_t place = 0;
+  };
+  // One of the tasks that the residuals are dealt out to.
+  struct Task {
+    std::vector<int> groups;
+    std::vector<int> edges;
+    std::vector<int> rotations;
+    std::vector<int> items;
 
-  void AddItems(const ProblemBuilder& builder, const std::vector<SelectedResidual>& residuals);
-  void AddItem(const SelectedResidual& residual,
-               const std::vector<int>& block_of_node,
-               PointTable* points);
+    void Clear() {
+      for (std::vector<int>* list : {&groups, &edges, &rotations, &items}) list->clear();
+    }
+  };
+  // Where sums go; values, and gradient, too, may be null.
+  struct Sums {
+    double* values = nullptr;
+    double* gradient = nullptr;
+    double* shared = nullptr;
+  };
+  struct ItemScratch;
+  struct PointScratch;
+
+  // Building.
+  void Clear();
+  void AddResiduals(const ProblemBuilder& builder, const std::vector<SelectedResidual>& residuals);
+  void AddItem(const SelectedResidual& residual, const DeformationGraph& graph);
+  void AddClosedForm(const SelectedResidual& residual);
+  void AddSlot(int a, int b, bool affine);
+  void AddGroupSlots(const PointGroup& group, const DeformationGraph& graph);
+  void AddSlots(const DeformationGraph& graph);
+  void DealOut(const DeformationGraph& graph);
+  void FindTargets(const BlockStructure& structure);
+  template <typename Visitor>
+  void ForEachSlot(const Task& task, const Visitor& visitor);
+  int NumItemSlots(const Item& item) const { return item.num_parts * (item.num_parts + 1) / 2; }
+  int NumGroupSlots(const PointGroup& group) const;
+  bool VariesCamera(const PointGroup& group) const { return group.has_camera && camera_variable_; }
+
+  // Evaluating. `sums.gradient` is null where the cost alone is wanted.
+  double* Values(int slot, const Sums& sums) const;
+  double* Gradient(int slot, const Sums& sums) const;
   // Null where there is none.
   const ceres::LossFunction* Loss(int term) const {
     return term < 0 ? nullptr : losses_[term].get();
@@ -131,86 +190,85 @@ class NormalEquations {
                  const double* residuals,
                  double rho[3],
                  double* cost) const;
-  bool EvaluateGeneral(const Item& item,
-                       const DeformationState& state,
-                       double* linearization,
-                       Scratch* scratch,
-                       double* cost) const;
-  // One residual on a warped point, added to `linear` where that isn't null.
-  bool AddPointResidual(const PointResidual& residual,
-                        const Eigen::Vector3d& warped,
-                        PointLinearization* linear,
-                        Scratch* scratch,
-                        double* cost) const;
-  bool EvaluatePoint(const Item& item,
+  bool LinearizeItem(const Item& item,
                      const DeformationState& state,
                      double* linearization,
-                     Scratch* scratch,
+                     ItemScratch* scratch,
                      double* cost) const;
-  bool EvaluateQuadratic(const Item& item,
-                         const DeformationState& state,
-                         double* linearization,
-                         Scratch* scratch,
-                         double* cost) const;
-  // `linearization` is null where the cost alone is wanted.
-  bool EvaluateItem(const Item& item,
-                    const DeformationState& state,
-                    double* linearization,
-                    Scratch* scratch,
-                    double* cost) const;
-  // What follows touches gradient rows of, and value columns of, blocks in [first, last) alone;
-  // where `values` is null only the gradient is wanted.
-  struct BlockRange {
-    int first = 0;
-    int last = 0;
-    bool Has(int block) const { return block >= first && block < last; }
-  };
-  void AccumulateGeneral(const Item& item,
-                         const double* linearization,
-                         const BlockRange& range,
-                         double* values,
-                         double* gradient) const;
-  void AccumulatePoint(const Item& item,
-                       const double* linearization,
-                       const BlockRange& range,
-                       double* values,
-                       double* gradient) const;
-  void AccumulateQuadratic(const Item& item,
-                           const double* linearization,
-                           const BlockRange& range,
-                           double* values,
-                           double* gradient) const;
-  void AccumulateCamera(const Item& item,
-                        const double* linearization,
-                        const BlockRange& range,
-                        double* values,
-                        double* gradient) const;
-  void Accumulate(const Item& item,
-                  const double* linearization,
-                  const BlockRange& range,
-                  double* values,
-                  double* gradient) const;
-  bool EvaluateSerial(const DeformationState& state,
-                      double* cost,
-                      std::vector<double>* values,
-                      Eigen::VectorXd* gradient) const;
-  bool EvaluateParallel(const DeformationState& state,
-                        int num_threads,
-                        double* cost,
-                        std::vector<double>* values,
-                        Eigen::VectorXd* gradient) const;
+  void AccumulateItem(const Item& item, const double* linearization, const Sums& sums) const;
+  bool LinearizeQuadratic(const Item& item,
+                          const DeformationState& state,
+                          double* gradient,
+                          ItemScratch* scratch,
+                          double* cost) const;
+  void AccumulateQuadratic(const Item& item, const double* gradient, const Sums& sums) const;
+  bool AddItems(const Task& task,
+                const DeformationState& state,
+                const Sums& sums,
+                double* cost) const;
+  bool AddEdge(const Edge& edge,
+               const DeformationState& state,
+               const Sums& sums,
+               double* cost) const;
+  bool AddRotation(const Rotation& rotation,
+                   const DeformationState& state,
+                   const Sums& sums,
+                   double* cost) const;
+  void WarpGroup(const PointGroup& group,
+                 const DeformationState& state,
+                 PointScratch* scratch) const;
+  bool AddRun(const PointRun& run,
+              bool has_camera,
+              bool linearize,
+              PointScratch* scratch,
+              double* cost) const;
+  bool AddGroup(int index,
+                const DeformationState& state,
+                const Sums& sums,
+                PointScratch* scratch,
+                double* cost) const;
+  void SpreadGradients(int index, const PointScratch& scratch, const Sums& sums) const;
+  void SpreadProducts(int index, const PointScratch& scratch, const Sums& sums) const;
+  bool AddGroups(const Task& task,
+                 const DeformationState& state,
+                 const Sums& sums,
+                 double* cost) const;
+  void AddShares(const Sums& sums) const;
+  bool AddTask(const Task& task,
+               const DeformationState& state,
+               const Sums& sums,
+               double* cost) const;
+  bool EvaluateTasks(const DeformationState& state,
+                     int num_threads,
+                     double* cost,
+                     std::vector<double>* values,
+                     Eigen::VectorXd* gradient) const;
 
   std::vector<int> variable_nodes_;
   bool camera_variable_ = false;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
+  PointGroups points_;
+  // First slot of each group, and, in the order of their nodes, blocks and positions.
+  std::vector<int> group_slots_;
+  std::vector<int> group_blocks_;
+  std::vector<Eigen::Vector3d> group_positions_;
+  std::vector<Edge> edges_;
+  std::vector<Rotation> rotations_;
   std::vector<Item> items_;
-  std::vector<PointResidual> more_;
   std::vector<Part> parts_;
-  std::vector<int> entries_;
+  std::vector<Slot> slots_;
+  std::vector<Task> tasks_;
   int max_residuals_ = 0;
   int max_blocks_ = 0;
   int max_linearization_ = 0;
   const BlockStructure* structure_ = nullptr;
+  std::vector<Share> shares_;
+  std::size_t shared_size_ = 0;
+  // One object serves one thread at a time.
+  mutable std::vector<double> shared_;
+  // While building.
+  std::vector<SelectedResidual> selected_;
+  std::vector<int> block_of_node_;
 };
 
 }  // namespace ceres_ed

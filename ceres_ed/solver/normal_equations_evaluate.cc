@@ -2,64 +2,86 @@
 #include <ceres_ed/solver/normal_equations.h>
 #include <ceres_ed/util/parallel.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
-#include <cstddef>
 
 #include <glog/logging.h>
 
 namespace ceres_ed {
 
-bool NormalEquations::EvaluateSerial(const DeformationState& state,
-                                     double* cost,
-                                     std::vector<double>* values,
-                                     Eigen::VectorXd* gradient) const {
-  Scratch scratch(*this);
-  double* linearization = gradient != nullptr ? scratch.linearization.data() : nullptr;
-  double* sums = values != nullptr ? values->data() : nullptr;
-  const BlockRange all{0, structure_->num_blocks()};
-  for (const Item& item : items_) {
-    double item_cost = 0.0;
-    if (!EvaluateItem(item, state, linearization, &scratch, &item_cost)) return false;
-    *cost += item_cost;
-    if (gradient != nullptr) Accumulate(item, linearization, all, sums, gradient->data());
-  }
-  return true;
+double* NormalEquations::Values(int slot, const Sums& sums) const {
+  const auto num_values = static_cast<std::ptrdiff_t>(structure_->num_values());
+  const std::ptrdiff_t target = slots_[slot].target;
+  return target < num_values ? sums.values + target : sums.shared + (target - num_values);
 }
 
-// All residuals first, then the sums, each block by one thread in the order of the residuals: the
-// same bits as EvaluateSerial at any number of threads.
-bool NormalEquations::EvaluateParallel(const DeformationState& state,
-                                       int num_threads,
-                                       double* cost,
-                                       std::vector<double>* values,
-                                       Eigen::VectorXd* gradient) const {
-  const int num_items = static_cast<int>(items_.size());
-  std::vector<std::size_t> offsets(num_items + 1, 0);
-  for (int i = 0; i < num_items && gradient != nullptr; ++i) {
-    offsets[i + 1] = offsets[i] + items_[i].LinearizationSize();
+double* NormalEquations::Gradient(int slot, const Sums& sums) const {
+  const auto num_values = static_cast<std::ptrdiff_t>(structure_->num_values());
+  const std::ptrdiff_t target = slots_[slot].target;
+  const int block = slots_[slot].row;
+  if (target < num_values) return sums.gradient + structure_->row_offset(block);
+  return sums.shared + (target - num_values) + structure_->size(block) * structure_->size(block);
+}
+
+bool NormalEquations::AddTask(const Task& task,
+                              const DeformationState& state,
+                              const Sums& sums,
+                              double* cost) const {
+  for (const int i : task.rotations) {
+    if (!AddRotation(rotations_[i], state, sums, cost)) return false;
   }
-  std::vector<double> linearizations(offsets.back());
-  std::vector<double> costs(num_items);
+  for (const int i : task.edges) {
+    if (!AddEdge(edges_[i], state, sums, cost)) return false;
+  }
+  return AddGroups(task, state, sums, cost) && AddItems(task, state, sums, cost);
+}
+
+void NormalEquations::AddShares(const Sums& sums) const {
+  for (const Share& share : shares_) {
+    const double* from = sums.shared + share.place;
+    const int size = structure_->size(share.row) * structure_->size(share.column);
+    if (sums.values != nullptr) {
+      double* to = sums.values + structure_->value_offset(share.entry);
+      for (int i = 0; i < size; ++i) to[i] += from[i];
+    }
+    if (share.row != share.column) continue;
+    double* to = sums.gradient + structure_->row_offset(share.row);
+    for (int i = 0; i < structure_->size(share.row); ++i) to[i] += from[size + i];
+  }
+}
+
+// The tasks and the order in which their sums are added up are the same at any number of threads,
+// and so are the bits.
+bool NormalEquations::EvaluateTasks(const DeformationState& state,
+                                    int num_threads,
+                                    double* cost,
+                                    std::vector<double>* values,
+                                    Eigen::VectorXd* gradient) const {
+  CHECK(structure_ != nullptr) << "SetStructure comes first";
+  Sums sums;
+  if (values != nullptr) {
+    values->assign(structure_->num_values(), 0.0);
+    sums.values = values->data();
+  }
+  if (gradient != nullptr) {
+    gradient->setZero(structure_->num_rows());
+    shared_.assign(shared_size_, 0.0);
+    sums.gradient = gradient->data();
+    sums.shared = shared_.data();
+  }
+  const int num_tasks = static_cast<int>(tasks_.size());
+  std::vector<double> costs(num_tasks, 0.0);
   std::atomic<bool> ok{true};
-  ParallelFor(num_threads, num_items, [&](int begin, int end) {
-    Scratch scratch(*this);
-    for (int i = begin; i < end; ++i) {
-      double* linearization = gradient != nullptr ? &linearizations[offsets[i]] : nullptr;
-      if (!EvaluateItem(items_[i], state, linearization, &scratch, &costs[i])) {
-        ok = false;
-        return;
-      }
+  ParallelFor(num_threads, num_tasks, [&](int begin, int end) {
+    for (int t = begin; t < end; ++t) {
+      if (!AddTask(tasks_[t], state, sums, &costs[t])) ok = false;
     }
   });
   if (!ok) return false;
-  for (const double item_cost : costs) *cost += item_cost;
-  if (gradient == nullptr) return true;
-  double* sums = values != nullptr ? values->data() : nullptr;
-  ParallelFor(num_threads, structure_->num_blocks(), [&](int begin, int end) {
-    for (int i = 0; i < num_items; ++i) {
-      Accumulate(items_[i], &linearizations[offsets[i]], {begin, end}, sums, gradient->data());
-    }
-  });
+  *cost = 0.0;
+  for (const double task_cost : costs) *cost += task_cost;
+  if (gradient != nullptr) AddShares(sums);
   return true;
 }
 
@@ -68,32 +90,20 @@ bool NormalEquations::Evaluate(const DeformationState& state,
                                double* cost,
                                std::vector<double>* values,
                                Eigen::VectorXd* gradient) const {
-  CHECK(structure_ != nullptr) << "SetStructure comes first";
-  *cost = 0.0;
-  values->assign(structure_->num_values(), 0.0);
-  gradient->setZero(structure_->num_rows());
-  return num_threads > 1 ? EvaluateParallel(state, num_threads, cost, values, gradient)
-                         : EvaluateSerial(state, cost, values, gradient);
+  return EvaluateTasks(state, num_threads, cost, values, gradient);
 }
 
 bool NormalEquations::EvaluateGradient(const DeformationState& state,
                                        int num_threads,
                                        double* cost,
                                        Eigen::VectorXd* gradient) const {
-  CHECK(structure_ != nullptr) << "SetStructure comes first";
-  *cost = 0.0;
-  gradient->setZero(structure_->num_rows());
-  return num_threads > 1 ? EvaluateParallel(state, num_threads, cost, nullptr, gradient)
-                         : EvaluateSerial(state, cost, nullptr, gradient);
+  return EvaluateTasks(state, num_threads, cost, nullptr, gradient);
 }
 
 bool NormalEquations::EvaluateCost(const DeformationState& state,
                                    int num_threads,
                                    double* cost) const {
-  CHECK(structure_ != nullptr) << "SetStructure comes first";
-  *cost = 0.0;
-  return num_threads > 1 ? EvaluateParallel(state, num_threads, cost, nullptr, nullptr)
-                         : EvaluateSerial(state, cost, nullptr, nullptr);
+  return EvaluateTasks(state, num_threads, cost, nullptr, nullptr);
 }
 
 }  // namespace ceres_ed

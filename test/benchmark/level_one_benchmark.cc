@@ -1,7 +1,10 @@
-// One iteration of Level I on a window of 20 x 20 nodes and a camera, in maps of growing length.
+// One iteration of Level I on a window of 20 x 20 nodes and a camera, in maps of growing length;
+// and what it is made of before anything is factorised.
 #include <ceres_ed/solver/level_solver.h>
+#include <ceres_ed/solver/normal_equations.h>
 
 #include <memory>
+#include <vector>
 
 #include <benchmark/benchmark.h>
 #include <test/problem/strip_builder.h>
@@ -42,6 +45,68 @@ BENCHMARK_CAPTURE(LevelOneIteration, Ceres, LinearSolver::kCeres)
     ->Arg(20)
     ->Arg(80)
     ->Unit(benchmark::kMillisecond);
+
+// 20 x 20 nodes and a camera, `points_per_cell` in each of 361 cells.
+struct Window {
+  explicit Window(int points_per_cell) : strip(Options(points_per_cell), "point_to_plane") {}
+
+  static TestProblemOptions Options(int points_per_cell) {
+    TestProblemOptions options;
+    options.columns = 20;
+    options.rows = 20;
+    options.points_per_cell = points_per_cell;
+    options.has_camera = true;
+    options.target_deviation = 0.05;
+    return options;
+  }
+
+  StripBuilder strip;
+  ProblemConfig config = FullConfig(400, true);
+};
+
+void CollectPoints(benchmark::State& state) {
+  Window window(static_cast<int>(state.range(0)));
+  const auto energy = window.strip.registry.Create("point_to_plane", {});
+  for (auto _ : state) {
+    window.strip.builder.CollectResiduals(
+        window.strip.data, **energy, window.strip.problem.Context());
+  }
+}
+
+void BuildEquations(benchmark::State& state) {
+  const Window window(static_cast<int>(state.range(0)));
+  NormalEquations equations(window.strip.builder, window.config);
+  const BlockStructure structure(equations.BlockSizes(), equations.BlockPairs());
+  for (auto _ : state) {
+    equations.Build(window.strip.builder, window.config);
+    benchmark::DoNotOptimize(equations.SetStructure(&structure));
+  }
+}
+
+void EvaluateEquations(benchmark::State& state) {
+  const Window window(static_cast<int>(state.range(0)));
+  NormalEquations equations(window.strip.builder, window.config);
+  const BlockStructure structure(equations.BlockSizes(), equations.BlockPairs());
+  equations.SetStructure(&structure);
+  const DeformationState rest(400);
+  double cost = 0.0;
+  std::vector<double> values;
+  Eigen::VectorXd gradient;
+  for (auto _ : state) {
+    equations.Evaluate(rest, static_cast<int>(state.range(1)), &cost, &values, &gradient);
+  }
+}
+
+// Points a cell: 77,000 and 10,000 points; threads.
+BENCHMARK(CollectPoints)->Arg(213)->Arg(28)->Unit(benchmark::kMillisecond);
+BENCHMARK(BuildEquations)->Arg(213)->Arg(28)->Unit(benchmark::kMillisecond);
+BENCHMARK(EvaluateEquations)
+    ->Args({213, 1})
+    ->Args({213, 2})
+    ->Args({28, 1})
+    ->Args({28, 2})
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace ceres_ed

@@ -150,14 +150,14 @@ class Band {
   DenseResiduals Linearize(const DeformationState& state, Dropped dropped) const {
     const std::vector<SelectedResidual> selected = builder_.Select(Full());
     int rows = 0;
-    for (const SelectedResidual& residual : selected) rows += residual.cost->num_residuals();
+    for (const SelectedResidual& residual : selected) rows += residual.num_residuals();
     DenseResiduals dense;
     dense.jacobian.setZero(rows, camera_offset() + 6);
     dense.residuals.setZero(rows);
     int row = 0;
     for (const SelectedResidual& residual : selected) {
       AddRows(state, residual, Drops(dropped, residual), row, &dense);
-      row += residual.cost->num_residuals();
+      row += residual.num_residuals();
     }
     return dense;
   }
@@ -186,17 +186,18 @@ class Band {
                int row,
                DenseResiduals* dense) const {
     using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-    const int rows = residual.cost->num_residuals();
+    const auto cost = residual.CostFunction(graph());
+    const int rows = residual.num_residuals();
     std::vector<const double*> blocks;
     std::vector<RowMajor> parts;
     std::vector<double*> jacobians;
     for (int b = 0; b < residual.num_blocks; ++b) {
       blocks.push_back(BlockPointer(state, residual.blocks[b]));
-      parts.emplace_back(rows, residual.cost->parameter_block_sizes()[b]);
+      parts.emplace_back(rows, cost->parameter_block_sizes()[b]);
     }
     for (RowMajor& part : parts) jacobians.push_back(part.data());
     double* values = dense->residuals.data() + row;
-    CHECK(residual.cost->Evaluate(blocks.data(), values, jacobians.data()));
+    CHECK(cost->Evaluate(blocks.data(), values, jacobians.data()));
     const double scale = std::sqrt(residual.weight);
     dense->residuals.segment(row, rows) *= scale;
     // Blocks are node j, node k.

@@ -1,0 +1,88 @@
+// How ProblemBuilder makes a ceres::Problem.
+#include <ceres_ed/problem/problem_builder.h>
+
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <ceres/manifold.h>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+void AddCamera(const ProblemConfig& config, DeformationState* state, BuiltProblem* built) {
+  double* rotation = state->camera_from_map.rotation.coeffs().data();
+  double* translation = state->camera_from_map.translation.data();
+  if (built->problem->HasParameterBlock(rotation)) {
+    built->rotation_manifold = std::make_unique<ceres::EigenQuaternionManifold>();
+    built->problem->SetManifold(rotation, built->rotation_manifold.get());
+    if (!config.camera_variable) built->problem->SetParameterBlockConstant(rotation);
+  }
+  if (built->problem->HasParameterBlock(translation) && !config.camera_variable) {
+    built->problem->SetParameterBlockConstant(translation);
+  }
+}
+
+double* MutableBlockPointer(DeformationState* state, const BlockRef& block) {
+  return const_cast<double*>(BlockPointer(*state, block));
+}
+
+ceres::Problem::Options ProblemOptions() {
+  ceres::Problem::Options options;
+  options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  // Sizes and aliasing are checked once, by the sink.
+  options.disable_all_safety_checks = true;
+  return options;
+}
+
+}  // namespace
+
+BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState* state) const {
+  CHECK_EQ(state->num_nodes(), graph_.num_nodes());
+  BuiltProblem built;
+  built.problem = std::make_unique<ceres::Problem>(ProblemOptions());
+  built.camera_variable = config.camera_variable;
+  // Residuals of one term and equal weight share a loss.
+  std::map<std::pair<int, double>, ceres::LossFunction*> losses;
+  const auto loss_for = [&](int term, double weight) -> ceres::LossFunction* {
+    if (term < 0) return nullptr;
+    ceres::LossFunction*& loss = losses[{term, weight}];
+    if (loss == nullptr) {
+      built.losses.push_back(std::make_unique<ceres::ScaledLoss>(
+          MakeLoss(terms_[term].loss).release(), weight, ceres::TAKE_OWNERSHIP));
+      loss = built.losses.back().get();
+    }
+    return loss;
+  };
+  std::vector<char> touched_nodes(graph_.num_nodes(), 0);
+  std::vector<double*> blocks;
+  for (const SelectedResidual& residual : Select(config)) {
+    blocks.clear();
+    for (int i = 0; i < residual.num_blocks; ++i) {
+      const BlockRef& block = residual.blocks[i];
+      blocks.push_back(MutableBlockPointer(state, block));
+      if (block.kind == BlockRef::Kind::kNode) touched_nodes[block.node] = 1;
+    }
+    built.costs.push_back(residual.CostFunction(graph_));
+    // Ceres evaluates a cost function it doesn't own only through const methods.
+    built.problem->AddResidualBlock(const_cast<ceres::CostFunction*>(built.costs.back().get()),
+                                    loss_for(residual.term, residual.weight),
+                                    blocks.data(),
+                                    residual.num_blocks);
+  }
+  for (int j = 0; j < graph_.num_nodes(); ++j) {
+    if (touched_nodes[j] == 0) continue;
+    if (config.variable_nodes[j] != 0) {
+      ++built.num_variable_nodes;
+    } else {
+      built.problem->SetParameterBlockConstant(state->node(j));
+    }
+  }
+  AddCamera(config, state, &built);
+  return built;
+}
+
+}  // namespace ceres_ed
