@@ -95,10 +95,13 @@ class Minimizer {
 // Tests the step that minimises the damped quadratic model, and takes it if the cost follows. The
 // equations at the new state are worked out along with its cost unless it is the `last` one.
 Minimizer::Step Minimizer::TakeStep(bool last) {
-  const double floor = std::max(kMinRelativeDiagonal * diagonal_.mean(), 1e-300);
-  const Eigen::VectorXd damping = diagonal_.cwiseMax(floor) / radius_;
+  const int num_rows = structure_.num_primal_rows();
+  const double floor = std::max(kMinRelativeDiagonal * diagonal_.head(num_rows).mean(), 1e-300);
+  Eigen::VectorXd damping = Eigen::VectorXd::Zero(structure_.num_rows());
+  damping.head(num_rows) = diagonal_.head(num_rows).cwiseMax(floor) / radius_;
   if (!cholesky_->Factorize(values_.data(), damping, options_.num_threads)) return Step::kInvalid;
-  const Eigen::VectorXd delta = cholesky_->Solve(-gradient_);
+  Eigen::VectorXd delta = cholesky_->Solve(-gradient_);
+  delta.tail(structure_.num_rows() - num_rows).setZero();
   if (!delta.allFinite()) return Step::kInvalid;
   const double model_decrease =
       0.5 * (delta.dot(damping.cwiseProduct(delta)) - gradient_.dot(delta));
@@ -198,14 +201,15 @@ void BlockLevelSolver::UpdateStructure(const ProblemConfig& config) {
   const bool same_unknowns =
       structure_ != nullptr && variable_nodes_ == config.variable_nodes && sizes_ == sizes;
   if (same_unknowns && equations_.SetStructure(structure_.get())) return;
-  if (!same_unknowns) pairs_.clear();
+  // Dual blocks are those of single points: these are others in the next problem.
+  if (!same_unknowns || equations_.num_dual() > 0) pairs_.clear();
   const std::vector<BlockPair> pairs = equations_.BlockPairs();
   pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
   variable_nodes_ = config.variable_nodes;
   sizes_ = sizes;
   // The factor refers to the structure: it goes first.
   cholesky_.reset();
-  structure_ = std::make_unique<BlockStructure>(sizes_, pairs_);
+  structure_ = std::make_unique<BlockStructure>(sizes_, pairs_, equations_.num_dual());
   pairs_ = structure_->Pairs();
   cholesky_ = std::make_unique<BlockCholesky>(*structure_);
   CHECK(equations_.SetStructure(structure_.get()));
@@ -219,7 +223,7 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
   const ScopedSerialLinearAlgebra serial;
   LevelSummary level;
   Timer timer;
-  equations_.Build(builder, config);
+  equations_.Build(builder, config, DualPoints::kWhereFew);
   level.num_variable_nodes = equations_.num_variable_nodes();
   if (level.num_variable_nodes == 0 && !equations_.camera_variable()) {
     summary->status = SolveStatus::kConverged;

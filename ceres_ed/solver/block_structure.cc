@@ -84,6 +84,13 @@ Eigen::VectorXd BlockStructure::Diagonal(const std::vector<double>& values) cons
   for (int j = 0; j < num_blocks(); ++j) {
     const double* block = &values[value_offset(column_begin(j))];
     for (int i = 0; i < size(j); ++i) diagonal[row_offset(j) + i] = block[i * size(j) + i];
+    if (num_dual_ == 0 || is_dual(j)) continue;
+    for (int e = column_begin(j) + 1; e < column_begin(j + 1); ++e) {
+      if (!is_dual(entry_row(e))) continue;
+      const Eigen::Map<const Eigen::MatrixXd> jacobian(
+          &values[value_offset(e)], size(entry_row(e)), size(j));
+      diagonal.segment(row_offset(j), size(j)) += jacobian.colwise().squaredNorm().transpose();
+    }
   }
   return diagonal;
 }

@@ -39,6 +39,8 @@ class BlockStructure {
   // First scalar row of a block; row_offset(num_blocks()) is the number of scalar rows.
   int row_offset(int block) const { return row_offsets_[block]; }
   int num_rows() const { return row_offsets_.back(); }
+  // Those of the blocks that aren't dual, which come first.
+  int num_primal_rows() const { return row_offsets_[num_blocks() - num_dual_]; }
 
   // Blocks of column j are entries column_begin(j) to column_begin(j + 1), by row.
   int column_begin(int column) const { return column_begins_[column]; }
@@ -56,7 +58,8 @@ class BlockStructure {
   // All entries below the diagonal, column by column.
   std::vector<BlockPair> Pairs() const;
 
-  // The scalar diagonal of a matrix of this structure.
+  // The scalar diagonal of a matrix of this structure, and, of primal rows, what it is once the
+  // dual ones have been eliminated, whose own blocks are to be -I.
   Eigen::VectorXd Diagonal(const std::vector<double>& values) const;
 
  private:

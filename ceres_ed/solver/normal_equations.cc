@@ -38,6 +38,7 @@ int NormalEquations::Item::LinearizationSize() const {
 void NormalEquations::Clear() {
   variable_nodes_.clear();
   camera_variable_ = false;
+  num_dual_ = 0;
   losses_.clear();
   edges_.clear();
   rotations_.clear();
@@ -48,7 +49,9 @@ void NormalEquations::Clear() {
   structure_ = nullptr;
 }
 
-void NormalEquations::Build(const ProblemBuilder& builder, const ProblemConfig& config) {
+void NormalEquations::Build(const ProblemBuilder& builder,
+                            const ProblemConfig& config,
+                            DualPoints dual_points) {
   Clear();
   builder.Select(config, &selected_);
   const int num_nodes = builder.graph().num_nodes();
@@ -69,6 +72,9 @@ void NormalEquations::Build(const ProblemBuilder& builder, const ProblemConfig& 
     variable_nodes_.push_back(j);
   }
   AddResiduals(builder, selected_);
+  if (dual_points == DualPoints::kWhereFew) ChooseDual();
+  AddSlots(builder.graph());
+  DealOut(builder.graph());
 }
 
 void NormalEquations::Build(const ProblemBuilder& builder,
@@ -79,6 +85,8 @@ void NormalEquations::Build(const ProblemBuilder& builder,
   block_of_node_.assign(builder.graph().num_nodes(), -1);
   for (int i = 0; i < num_variable_nodes(); ++i) block_of_node_[variable_nodes_[i]] = i;
   AddResiduals(builder, residuals);
+  AddSlots(builder.graph());
+  DealOut(builder.graph());
 }
 
 void NormalEquations::AddResiduals(const ProblemBuilder& builder,
@@ -94,8 +102,6 @@ void NormalEquations::AddResiduals(const ProblemBuilder& builder,
       AddItem(residual, builder.graph());
     }
   }
-  AddSlots(builder.graph());
-  DealOut(builder.graph());
 }
 
 void NormalEquations::AddClosedForm(const SelectedResidual& residual) {
@@ -146,6 +152,7 @@ void NormalEquations::AddItem(const SelectedResidual& residual, const Deformatio
 std::vector<int> NormalEquations::BlockSizes() const {
   std::vector<int> sizes(variable_nodes_.size(), kNodeSize);
   if (camera_variable_) sizes.push_back(kCameraTangent);
+  sizes.insert(sizes.end(), num_dual_, kDualSize);
   return sizes;
 }
 

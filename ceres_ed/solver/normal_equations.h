@@ -18,6 +18,12 @@
 
 namespace ceres_ed {
 
+// Points couple the affine parts of their nodes. Where points are few, dual unknowns y in place of
+// their products keep these apart (see BlockCholesky), with J the Jacobian of the points:
+//   [H J^T; J -I] [x; y] = [b; 0]  <=>  (H + J^T J) x = b
+inline constexpr int kDualSize = 3;
+enum class DualPoints { kNever, kWhereFew };
+
 // Unknowns: one block of 12 a variable node, in the order of the nodes, then one of 6 for a
 // variable camera (rotation in the tangent space of ceres::EigenQuaternionManifold, then
 // translation). Builder and config must outlive this, and their residuals stay as they are.
@@ -40,7 +46,9 @@ class NormalEquations {
   }
 
   // Takes the problem of `config`; what was there is gone, its memory is kept.
-  void Build(const ProblemBuilder& builder, const ProblemConfig& config);
+  void Build(const ProblemBuilder& builder,
+             const ProblemConfig& config,
+             DualPoints dual_points = DualPoints::kNever);
   // Takes some residuals of the builder alone, with the blocks in the order of `variable_nodes`;
   // the camera is held.
   void Build(const ProblemBuilder& builder,
@@ -50,6 +58,8 @@ class NormalEquations {
   int num_variable_nodes() const { return static_cast<int>(variable_nodes_.size()); }
   const std::vector<int>& variable_nodes() const { return variable_nodes_; }
   bool camera_variable() const { return camera_variable_; }
+  // Dual blocks, one a point or none: the last ones. Their rows of the gradient are zero.
+  int num_dual() const { return num_dual_; }
   // Rows of each block.
   std::vector<int> BlockSizes() const;
   // Pairs of blocks that share a residual, by column and then row, without repetition.
@@ -167,7 +177,9 @@ class NormalEquations {
   void AddItem(const SelectedResidual& residual, const DeformationGraph& graph);
   void AddClosedForm(const SelectedResidual& residual);
   void AddSlot(int a, int b, bool affine);
+  void ChooseDual();
   void AddGroupSlots(const PointGroup& group, const DeformationGraph& graph);
+  void AddDualSlots(const PointGroup& group);
   void AddSlots(const DeformationGraph& graph);
   void DealOut(const DeformationGraph& graph);
   void FindTargets(const BlockStructure& structure);
@@ -175,6 +187,7 @@ class NormalEquations {
   void ForEachSlot(const Task& task, const Visitor& visitor);
   int NumItemSlots(const Item& item) const { return item.num_parts * (item.num_parts + 1) / 2; }
   int NumGroupSlots(const PointGroup& group) const;
+  int DiagonalSlot(int group, int node) const;
   bool VariesCamera(const PointGroup& group) const { return group.has_camera && camera_variable_; }
 
   // Evaluating. `sums.gradient` is null where the cost alone is wanted.
@@ -229,10 +242,12 @@ class NormalEquations {
                 double* cost) const;
   void SpreadGradients(int index, const PointScratch& scratch, const Sums& sums) const;
   void SpreadProducts(int index, const PointScratch& scratch, const Sums& sums) const;
+  void SpreadDuals(int index, const double* moments, const Sums& sums) const;
   bool AddGroups(const Task& task,
                  const DeformationState& state,
                  const Sums& sums,
                  double* cost) const;
+  void SetDualDiagonals(double* values) const;
   void AddShares(const Sums& sums) const;
   bool AddTask(const Task& task,
                const DeformationState& state,
@@ -246,6 +261,7 @@ class NormalEquations {
 
   std::vector<int> variable_nodes_;
   bool camera_variable_ = false;
+  int num_dual_ = 0;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
   PointGroups points_;
   // First slot of each group, and, in the order of their nodes, blocks and positions.

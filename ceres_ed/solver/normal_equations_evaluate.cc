@@ -63,6 +63,7 @@ bool NormalEquations::EvaluateTasks(const DeformationState& state,
   if (values != nullptr) {
     values->assign(structure_->num_values(), 0.0);
     sums.values = values->data();
+    SetDualDiagonals(sums.values);
   }
   if (gradient != nullptr) {
     gradient->setZero(structure_->num_rows());

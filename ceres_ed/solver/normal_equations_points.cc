@@ -170,6 +170,10 @@ bool NormalEquations::AddGroup(int index,
   AddGroupGradients(points, &scratch->sums);
   SpreadGradients(index, *scratch, sums);
   if (sums.values == nullptr) return true;
+  if (num_dual_ > 0) {
+    SpreadDuals(index, scratch->moments.data(), sums);
+    return true;
+  }
   AddGroupProducts(points, &scratch->sums);
   SpreadProducts(index, *scratch, sums);
   return true;
@@ -181,24 +185,20 @@ void NormalEquations::SpreadGradients(int index,
   const PointGroup& group = points_.groups()[index];
   const Eigen::Vector3d* positions = &group_positions_[group.first_node];
   const int* blocks = &group_blocks_[group.first_node];
-  int slot = group_slots_[index];
   for (int a = 0; a < group.num_nodes; ++a) {
-    // The slot of (a, a) is the last one of its row.
-    slot += a;
-    if (blocks[a] >= 0) {
-      double* g = Gradient(slot, sums);
-      const double* from = scratch.sums.gradients[a];
-      const Eigen::Vector3d shift = positions[0] - positions[a];
-      for (int i = 0; i < 4; ++i) {
-        for (int r = 0; r < 3; ++r) {
-          g[3 * i + r] += i < 3 ? from[3 * i + r] + shift[i] * from[9 + r] : from[9 + r];
-        }
+    if (blocks[a] < 0) continue;
+    double* g = Gradient(DiagonalSlot(index, a), sums);
+    const double* from = scratch.sums.gradients[a];
+    const Eigen::Vector3d shift = positions[0] - positions[a];
+    for (int i = 0; i < 4; ++i) {
+      for (int r = 0; r < 3; ++r) {
+        g[3 * i + r] += i < 3 ? from[3 * i + r] + shift[i] * from[9 + r] : from[9 + r];
       }
     }
-    ++slot;
   }
   if (!VariesCamera(group)) return;
-  Eigen::Map<Eigen::Matrix<double, 6, 1>> g(Gradient(slot + group.num_nodes, sums));
+  const int camera_slot = group_slots_[index] + NumGroupSlots(group) - 1;
+  Eigen::Map<Eigen::Matrix<double, 6, 1>> g(Gradient(camera_slot, sums));
   g.head<3>() += 2.0 * (*scratch.R_c * scratch.sums.turn_gradient);
   g.tail<3>() += *scratch.R_c * scratch.sums.shift_gradient;
 }

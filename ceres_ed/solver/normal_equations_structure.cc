@@ -38,8 +38,13 @@ void NormalEquations::AddGroupSlots(const PointGroup& group, const DeformationGr
     const int node = points_.nodes(group)[a];
     group_blocks_.push_back(block_of_node_[node]);
     group_positions_.push_back(graph.position(node));
+    if (num_dual_ > 0) {
+      AddSlot(group_blocks_.back(), group_blocks_.back(), true);
+      continue;
+    }
     for (int b = 0; b <= a; ++b) AddSlot(group_blocks_[first + a], group_blocks_[first + b], true);
   }
+  if (num_dual_ > 0) AddDualSlots(group);
   if (!VariesCamera(group)) return;
   for (int a = 0; a < group.num_nodes; ++a) {
     AddSlot(num_variable_nodes(), group_blocks_[first + a], true);
@@ -78,6 +83,7 @@ void NormalEquations::AddSlots(const DeformationGraph& graph) {
 
 int NormalEquations::NumGroupSlots(const PointGroup& group) const {
   const int n = group.num_nodes;
+  if (num_dual_ > 0) return n * (1 + group.num_points);
   return n * (n + 1) / 2 + (VariesCamera(group) ? n + 1 : 0);
 }
 

@@ -1,0 +1,92 @@
+// Points of NormalEquations that have dual unknowns.
+#include <ceres_ed/solver/normal_equations.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ceres_ed {
+namespace {
+
+constexpr int kAffineSize = kNodeTranslationOffset;
+// Duals pay where they are fewer than this share of the affine parameters that they keep apart.
+constexpr double kFewDuals = 0.7;
+// Rounding of moments.
+constexpr double kRankTolerance = 1e-15;
+
+// Q with Q^T Q = M, rows of zeros where the rank is lower. Pivoted: every row starts from the
+// largest entry left on the diagonal. `moments`: lower triangle row by row.
+Eigen::Matrix3d SquareRoot(const double* moments) {
+  Eigen::Matrix3d M;
+  M << moments[0], moments[1], moments[3], moments[1], moments[2], moments[4], moments[3],
+      moments[4], moments[5];
+  const double smallest = kRankTolerance * M.trace();
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    int pivot = 0;
+    const double largest = M.diagonal().maxCoeff(&pivot);
+    if (!(largest > smallest)) break;
+    Q.row(k) = M.row(pivot) / std::sqrt(largest);
+    M -= Q.row(k).transpose() * Q.row(k);
+  }
+  return Q;
+}
+
+}  // namespace
+
+void NormalEquations::ChooseDual() {
+  if (camera_variable_) return;
+  std::vector<char> coupled(num_variable_nodes(), 0);
+  int num_points = 0;
+  for (const PointGroup& group : points_.groups()) {
+    num_points += group.num_points;
+    for (int a = 0; a < group.num_nodes; ++a) {
+      const int block = block_of_node_[points_.nodes(group)[a]];
+      if (block >= 0) coupled[block] = 1;
+    }
+  }
+  const auto num_coupled = std::count(coupled.begin(), coupled.end(), 1);
+  if (kDualSize * num_points < kFewDuals * kAffineSize * num_coupled) num_dual_ = num_points;
+}
+
+// Behind those of the nodes: of each point, those with its nodes.
+void NormalEquations::AddDualSlots(const PointGroup& group) {
+  const int* blocks = &group_blocks_[group.first_node];
+  for (int p = 0; p < group.num_points; ++p) {
+    const int dual = num_variable_nodes() + group.first_point + p;
+    for (int a = 0; a < group.num_nodes; ++a) AddSlot(dual, blocks[a], true);
+  }
+}
+
+int NormalEquations::DiagonalSlot(int group, int node) const {
+  return group_slots_[group] + (num_dual_ > 0 ? node : node * (node + 1) / 2 + node);
+}
+
+// Dual rows are w_a [v - g_a; 1]^T (x) Q.
+void NormalEquations::SpreadDuals(int index, const double* moments, const Sums& sums) const {
+  const PointGroup& group = points_.groups()[index];
+  const Eigen::Vector3d* positions = &group_positions_[group.first_node];
+  const int* blocks = &group_blocks_[group.first_node];
+  int slot = group_slots_[index] + group.num_nodes;
+  for (int p = 0; p < group.num_points; ++p) {
+    const Eigen::Matrix3d Q = SquareRoot(moments + 6 * p);
+    const Eigen::Map<const Eigen::Vector3d> lever(points_.levers(group) + 3 * p);
+    const double* weights = points_.weights(group) + p * group.num_nodes;
+    for (int a = 0; a < group.num_nodes; ++a, ++slot) {
+      if (blocks[a] < 0) continue;
+      Eigen::Map<Eigen::Matrix<double, kDualSize, kNodeSize>> J(Values(slot, sums));
+      const Eigen::Vector3d offset = lever + positions[0] - positions[a];
+      for (int i = 0; i < 3; ++i) J.middleCols<3>(3 * i) = weights[a] * offset[i] * Q;
+      J.middleCols<3>(kNodeTranslationOffset) = weights[a] * Q;
+    }
+  }
+}
+
+void NormalEquations::SetDualDiagonals(double* values) const {
+  for (int k = 0; k < num_dual_; ++k) {
+    const int block = structure_->num_blocks() - num_dual_ + k;
+    double* diagonal = values + structure_->value_offset(structure_->column_begin(block));
+    for (int i = 0; i < kDualSize; ++i) diagonal[i * kDualSize + i] = -1.0;
+  }
+}
+
+}  // namespace ceres_ed
