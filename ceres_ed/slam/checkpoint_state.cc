@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 
 namespace ceres_ed {
@@ -184,32 +185,43 @@ void PendingNodes::Exchange(CheckpointArchive* archive) {
 }
 
 void TissueMemory::Exchange(CheckpointArchive* archive) {
-  // One row for each trace of each node.
-  struct Row {
-    int node = 0;
-    int moment = 0;
-    Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  };
-  std::vector<Row> rows;
-  for (int j = 0; j < static_cast<int>(traces_.size()); ++j) {
-    for (const Trace& trace : traces_[j]) rows.push_back({j, trace.moment, trace.translation});
-  }
-  int num_nodes = static_cast<int>(traces_.size());
   archive->Enter("memory");
   archive->Value("next_moment", &next_moment_);
   archive->Value("stride", &stride_);
-  archive->Value("kept", &kept_);
-  archive->Value("nodes", &num_nodes);
-  ExchangeCount("traces", &rows, archive);
-  archive->Column("node", &rows, [](Row& row) -> int& { return row.node; });
-  archive->Column("moment", &rows, [](Row& row) -> int& { return row.moment; });
+  ExchangeCount("moments", &moments_, archive);
   archive->Column(
-      "translation", &rows, [](Row & row) -> auto& { return row.translation; });
+      "origin", &moments_, [](Moment & m) -> auto& { return m.origin; });
+  archive->Column(
+      "step", &moments_, [](Moment & m) -> auto& { return m.step; });
+  // Runs and translations of all moments, one after the other.
+  std::vector<int> run_counts, first, count;
+  std::vector<std::array<std::uint16_t, 3>> translations;
+  for (const Moment& moment : moments_) {
+    run_counts.push_back(static_cast<int>(moment.runs.size()));
+    for (const Run& run : moment.runs) {
+      first.push_back(run.first);
+      count.push_back(run.count);
+    }
+    translations.insert(translations.end(), moment.translations.begin(), moment.translations.end());
+  }
+  archive->Array("run_counts", &run_counts);
+  archive->Array("run_first", &first);
+  archive->Array("run_count", &count);
+  archive->Rows("translations", &translations);
   archive->Leave();
   if (archive->saving() || !archive->status().ok()) return;
-  traces_.assign(static_cast<std::size_t>(num_nodes), {});
-  for (const Row& row : rows) traces_.at(row.node).push_back({row.moment, row.translation});
-  ListNodes();
+  alignments_.clear();
+  std::size_t next_run = 0;
+  auto next = translations.begin();
+  for (std::size_t m = 0; m < moments_.size(); ++m) {
+    Moment& moment = moments_[m];
+    for (int r = 0; r < run_counts.at(m); ++r, ++next_run) {
+      const Run run = {first.at(next_run), count.at(next_run)};
+      moment.runs.push_back(run);
+      moment.translations.insert(moment.translations.end(), next, next + run.count);
+      next += run.count;
+    }
+  }
 }
 
 void DeformableSlam::Exchange(CheckpointArchive* archive) {
