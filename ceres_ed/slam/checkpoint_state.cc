@@ -37,13 +37,6 @@ void ExchangeNodes(const std::string& name, NodeSet* nodes, CheckpointArchive* a
   for (const int node : list) nodes->Add(node);
 }
 
-// The nodes of one point, with nothing uninitialised behind them.
-struct BindingRow {
-  std::array<int, kMaxBoundNodes> nodes = {};
-  std::array<double, kMaxBoundNodes> weights = {};
-  int size = 0;
-};
-
 }  // namespace
 
 void DeformableMap::Exchange(CheckpointArchive* archive) {
@@ -64,7 +57,7 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
   archive->Column("edge_to", &edges, [](GraphEdge& e) -> int& { return e.to; });
   archive->Column("edge_weight", &edges, [](GraphEdge& e) -> double& { return e.weight; });
   std::vector<double> parameters;
-  for (int j = 0; j < state_.num_nodes(); ++j) {
+  for (int j = 0; archive->saving() && j < state_.num_nodes(); ++j) {
     parameters.insert(parameters.end(), state_.node(j), state_.node(j) + kNodeSize);
   }
   archive->Array("node_parameters", &parameters);
@@ -86,35 +79,7 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
 }
 
 void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
-  using Point = MapPoint;
-  std::vector<MapPoint> points(points_.begin(), points_.end());
-  ExchangeCount("slots", &points, archive);
-  archive->Column(
-      "position", &points, [](Point & p) -> auto& { return p.position; });
-  archive->Column(
-      "normal", &points, [](Point & p) -> auto& { return p.normal; });
-  archive->Column("weight", &points, [](Point& p) -> double& { return p.weight; });
-  archive->Column(
-      "color", &points, [](Point & p) -> auto& { return p.color; });
-  archive->Column("id", &points, [](Point& p) -> int& { return p.id; });
-  archive->Column("birth_frame", &points, [](Point& p) -> int& { return p.birth_frame; });
-  archive->Column(
-      "birth_position", &points, [](Point & p) -> auto& { return p.birth_position; });
-  archive->Column("contradictions", &points, [](Point& p) -> int& { return p.contradictions; });
-
-  std::vector<BindingRow> bindings(points.size());
-  for (std::size_t slot = 0; archive->saving() && slot < bindings.size(); ++slot) {
-    const Binding binding = skinning_[slot];
-    std::copy_n(binding.nodes, binding.size, bindings[slot].nodes.begin());
-    std::copy_n(binding.weights, binding.size, bindings[slot].weights.begin());
-    bindings[slot].size = binding.size;
-  }
-  archive->Column(
-      "bound_nodes", &bindings, [](BindingRow & b) -> auto& { return b.nodes; });
-  archive->Column(
-      "bound_weights", &bindings, [](BindingRow & b) -> auto& { return b.weights; });
-  archive->Column("bound_sizes", &bindings, [](BindingRow& b) -> int& { return b.size; });
-
+  points_.Exchange(archive);
   // Points are visited node by node: the order of each node's list is part of the result.
   std::vector<int> owned, owned_counts;
   for (const std::vector<int>& slots : points_of_node_) {
@@ -127,9 +92,6 @@ void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
   archive->Value("num_points", &num_points_);
   archive->Value("next_id", &next_id_);
   if (archive->saving() || !archive->status().ok()) return;
-  points_.assign(points.begin(), points.end());
-  skinning_ = Skinning(neighbors_);
-  for (const BindingRow& b : bindings) skinning_.Add(b.nodes.data(), b.weights.data(), b.size);
   points_of_node_.clear();
   auto next = owned.begin();
   for (const int count : owned_counts) {
