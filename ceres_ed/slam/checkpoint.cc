@@ -57,20 +57,61 @@ void AppendArray(const std::string& name, const std::vector<T>& values, std::str
   if (size > 0) bytes->append(reinterpret_cast<const char*>(values.data()), size);
 }
 
+// All that stands before the payload, with the payload's length in the last eight bytes.
+std::string FileHead(std::uint64_t length) {
+  std::string bytes(1, kOpenMap);
+  AppendText("format", &bytes);
+  AppendText(kFormat, &bytes);
+  AppendText("version", &bytes);
+  AppendHead(kUnsigned, kCheckpointVersion, &bytes);
+  // Numbers stand in the machine's own order of bytes; its probe tells another machine's from them.
+  AppendArray("probe", kProbe, &bytes);
+  AppendText("payload", &bytes);
+  AppendHead(kBytes, length, &bytes);
+  return bytes;
+}
+
+// And all that stands behind it.
+std::string FileTail(std::string_view payload) {
+  std::string bytes;
+  AppendText("checksum", &bytes);
+  AppendHead(kUnsigned, Checksum(payload.data(), payload.size()), &bytes);
+  bytes.push_back(kCloseMap);
+  return bytes;
+}
+
+// The payload of a file as a CheckpointWriter leaves it, where it is whole; else nothing.
+std::string_view PayloadOf(std::string_view file) {
+  const std::size_t around = FileHead(0).size() + FileTail({}).size();
+  if (file.size() < around) return {};
+  const std::string head = FileHead(file.size() - around);
+  if (file.substr(0, head.size()) != head) return {};
+  const std::string_view payload = file.substr(head.size(), file.size() - around);
+  return file.substr(head.size() + payload.size()) == FileTail(payload) ? payload
+                                                                        : std::string_view();
+}
+
+// Why a file is none that PayloadOf() takes.
+Status WhatIsWrong(std::string_view bytes) {
+  const json file = json::from_cbor(bytes, /*strict=*/true, /*allow_exceptions=*/false);
+  if (!file.is_object() || file.value("format", json()) != kFormat) {
+    return Status::Error("is no checkpoint, expected one that a run has left");
+  }
+  if (file.value("version", json()) != kCheckpointVersion) {
+    return Status::Error("is of checkpoint version " + file.value("version", json()).dump() +
+                         ", expected " + std::to_string(kCheckpointVersion));
+  }
+  std::vector<std::uint8_t> probe(kProbe.size() * sizeof(double));
+  std::memcpy(probe.data(), kProbe.data(), probe.size());
+  if (file.value("probe", json()) != json::binary(std::move(probe))) {
+    return Status::Error("is from another kind of machine, expected one with this order of bytes");
+  }
+  return Status::Error("is damaged, expected the checksum that it was written with");
+}
+
 }  // namespace
 
-CheckpointWriter::CheckpointWriter() {
-  bytes_.push_back(kOpenMap);
-  AppendText("format", &bytes_);
-  AppendText(kFormat, &bytes_);
-  AppendText("version", &bytes_);
-  AppendHead(kUnsigned, kCheckpointVersion, &bytes_);
-  // Numbers stand in the machine's own order of bytes; its probe tells another machine's from them.
-  AppendArray("probe", kProbe, &bytes_);
-  AppendText("payload", &bytes_);
-  AppendHead(kBytes, 0, &bytes_);
-  payload_at_ = bytes_.size();
-  length_at_ = payload_at_ - 8;
+CheckpointWriter::CheckpointWriter() : bytes_(FileHead(0)), payload_at_(bytes_.size()) {
   bytes_.push_back(kOpenMap);
 }
 
@@ -79,11 +120,8 @@ std::string CheckpointWriter::Finish() {
   --depth_;
   bytes_.push_back(kCloseMap);
   const std::size_t length = bytes_.size() - payload_at_;
-  PutNumber(length, length_at_, &bytes_);
-  const std::uint64_t checksum = Checksum(&bytes_[payload_at_], length);
-  AppendText("checksum", &bytes_);
-  AppendHead(kUnsigned, checksum, &bytes_);
-  bytes_.push_back(kCloseMap);
+  PutNumber(length, payload_at_ - 8, &bytes_);
+  bytes_ += FileTail(std::string_view(bytes_).substr(payload_at_));
   return std::move(bytes_);
 }
 
@@ -142,27 +180,10 @@ CheckpointReader::CheckpointReader() : impl_(new Impl) {}
 CheckpointReader::~CheckpointReader() = default;
 
 StatusOr<std::unique_ptr<CheckpointReader>> CheckpointReader::Open(std::string_view bytes) {
-  const json file = json::from_cbor(bytes, /*strict=*/true, /*allow_exceptions=*/false);
-  if (!file.is_object() || file.value("format", json()) != kFormat) {
-    return Status::Error("is no checkpoint, expected one that a run has left");
-  }
-  if (file.value("version", json()) != kCheckpointVersion) {
-    return Status::Error("is of checkpoint version " + file.value("version", json()).dump() +
-                         ", expected " + std::to_string(kCheckpointVersion));
-  }
-  std::vector<std::uint8_t> probe(kProbe.size() * sizeof(double));
-  std::memcpy(probe.data(), kProbe.data(), probe.size());
-  if (file.value("probe", json()) != json::binary(std::move(probe))) {
-    return Status::Error("is from another kind of machine, expected one with this order of bytes");
-  }
-  const auto payload = file.find("payload");
-  if (payload == file.end() || !payload->is_binary() ||
-      file.value("checksum", json()) !=
-          Checksum(payload->get_binary().data(), payload->get_binary().size())) {
-    return Status::Error("is damaged, expected the checksum that it was written with");
-  }
+  const std::string_view payload = PayloadOf(bytes);
+  if (payload.empty()) return WhatIsWrong(bytes);
   std::unique_ptr<CheckpointReader> reader(new CheckpointReader);
-  reader->impl_->root = json::from_cbor(payload->get_binary(), true, false);
+  reader->impl_->root = json::from_cbor(payload, true, false);
   if (!reader->impl_->root.is_object()) return Status::Error("has no contents, expected a state");
   reader->impl_->groups = {&reader->impl_->root};
   return StatusOr<std::unique_ptr<CheckpointReader>>(std::move(reader));

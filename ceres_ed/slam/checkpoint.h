@@ -187,8 +187,7 @@ class CheckpointWriter : public CheckpointArchive {
 
  private:
   std::string bytes_;
-  // Where the length of the payload stands, and where the payload starts.
-  std::size_t length_at_ = 0;
+  // Where the payload starts.
   std::size_t payload_at_ = 0;
   int depth_ = 0;
 };
