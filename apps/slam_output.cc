@@ -215,10 +215,10 @@ Status SlamOutput::WriteLive(int frame, const DeformableSlam& slam) const {
   points.reserve(static_cast<std::size_t>(map.num_points()));
   for (int slot = 0; slot < map.num_slots(); ++slot) {
     if (!map.alive(slot)) continue;
-    const MapPoint& point = map.point(slot);
+    const MapPoint point = map.point(slot);
+    const PointBinding binding = map.binding(slot);
     const Eigen::Vector3d in_camera =
-        slam.camera_from_map() *
-        WarpPoint(map.graph(), map.state(), map.binding(slot), point.position);
+        slam.camera_from_map() * WarpPoint(map.graph(), map.state(), binding, point.position);
     LivePoint live;
     live.position = (slam.unit() * in_camera).cast<float>();
     live.id = point.id;
@@ -267,8 +267,8 @@ Status SlamOutput::WriteMap(const DeformableSlam& slam) const {
   PlyProperty weight = MakePlyScalar("weight", PlyType::kFloat32);
   for (int slot = 0; slot < map.num_slots(); ++slot) {
     if (!map.alive(slot)) continue;
-    const MapPoint& point = map.point(slot);
-    const Binding binding = map.binding(slot);
+    const MapPoint point = map.point(slot);
+    const PointBinding binding = map.binding(slot);
     cloud.points.push_back(slam.unit() *
                            WarpPoint(map.graph(), map.state(), binding, point.position));
     cloud.normals.push_back(WarpNormal(map.state(), binding, point.normal));

@@ -3,11 +3,14 @@
 #include <ceres_ed/version.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdio>
+#include <fstream>
 #include <numeric>
 
 #include <apps/support/report.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 namespace ceres_ed {
 namespace {
@@ -46,6 +49,34 @@ double PeakMemoryMib() {
   struct rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// What it holds now, MiB; 0 where the system doesn't say.
+double ResidentMemoryMib() {
+  std::ifstream file("/proc/self/statm");
+  double total = 0.0, resident = 0.0;
+  if (!(file >> total >> resident)) return 0.0;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+// The map's share, by owner, in bytes.
+ordered_json MemoryReport(const DeformableSlam& slam) {
+  const MapMemory memory = slam.Memory();
+  const auto per = [](std::size_t bytes, int count) {
+    return static_cast<double>(bytes) / std::max(1, count);
+  };
+  return {{"map", memory.Total()},
+          {"nodes", memory.nodes},
+          {"edges", memory.edges},
+          {"node_index", memory.node_index},
+          {"tissue_memory", memory.tissue_memory},
+          {"levels", memory.levels},
+          {"points", memory.points},
+          {"bindings", memory.bindings},
+          {"point_lists", memory.point_lists},
+          {"per_node", per(memory.OfNodes(), slam.map().graph().num_nodes())},
+          {"per_point", per(memory.OfPoints(), slam.map().num_points())},
+          {"resident_mib", ResidentMemoryMib()}};
 }
 
 ordered_json SequenceReport(const SlamRun& run) {
@@ -129,6 +160,7 @@ ordered_json SlamReport(const SlamRun& run) {
           {"rms_plane", Statistics(ColumnOf(*run.records, "rms_plane"))},
           {"time_s", TimeReport(run)},
           {"memory_peak_mib", PeakMemoryMib()},
+          {"memory", MemoryReport(slam)},
           {"threads", options.num_threads},
           {"warnings", *run.warnings},
           {"flags", FlagsReport()},

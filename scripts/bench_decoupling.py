@@ -30,7 +30,6 @@ the batch run fails, with 2 on a wrong call; other failures stand in the tables.
 """
 import argparse
 import json
-import math
 import shlex
 import shutil
 import sys
@@ -41,7 +40,8 @@ from pathlib import Path
 import mesh_picture  # noqa: F401
 from bench_tables import check_marks, write_between
 from decoupling_gaps import gaps
-from decoupling_runs import BATCH, DEFAULT, MARGINAL, PAPER_CUT, PAPER_KEEP, growth, paired
+from decoupling_runs import (BATCH, DEFAULT, MARGINAL, NODES_IN_VIEW, NODES_OF_VIEW, PAPER_CUT,
+                             PAPER_KEEP, growth, make_strip, paired)
 from decoupling_tables import draw, gap_lines, growth_lines, paired_lines
 from program_runs import PROGRAM, ROOT, RunFailed, wrong_call
 from sequence_runs import SCENES, simulate
@@ -49,11 +49,6 @@ from sequence_runs import SCENES, simulate
 BEGIN, END = "<!-- bench_decoupling.py: begin -->", "<!-- bench_decoupling.py: end -->"
 PARTS = ("strip", "paired", "gap")
 PICTURE = "decoupling.png"
-# What ed_simulate takes as the nodes of a view; nodes_in_view below gives that many PR nodes.
-NODES_OF_VIEW = 300
-NODES_IN_VIEW = 430
-# A strip is so much longer than the map asks for.
-SPARE = 1.05
 
 
 def parse_options():
@@ -138,17 +133,6 @@ def check(options, parser):
     for program in ("ed_slam", "ed_simulate", "ed_eval"):
         if not (options.bin / program).exists():
             wrong_call(f"{options.bin / program} is not there; build it or name its folder")
-
-
-def make_strip(options, nodes, flags):
-    """Returns a strip on which a map comes to have `nodes` nodes, and how many frames it has."""
-    per_view = NODES_OF_VIEW * options.nodes_in_view / NODES_IN_VIEW
-    views = max(1.0 + options.speed, SPARE * nodes / per_view)
-    frames = math.ceil((views - 1.0) / options.speed) + 1
-    hint = max(NODES_OF_VIEW, math.ceil(views * NODES_OF_VIEW))
-    return simulate(options.bin / "ed_simulate", "strip",
-                    [f"--nodes_hint={hint}", f"--frames={frames}", *options.simulate_flags, *flags],
-                    options.work / "sequences", options.fresh), frames
 
 
 def make_strip_part(options):

@@ -1,14 +1,31 @@
 """Runs of ed_slam under ways to decouple, from the first frame or from a checkpoint of another run."""
+import math
 import re
 import shutil
 import statistics
 
 from program_runs import RunFailed, Variant, run
-from sequence_runs import STAGES, followed, read_frames
+from sequence_runs import STAGES, followed, read_frames, simulate
 
 # Frames up to a size over which a time is a median.
 WINDOW = 50
+# What ed_simulate takes as the nodes of a view; NODES_IN_VIEW gives that many PR nodes.
+NODES_OF_VIEW = 300
+NODES_IN_VIEW = 430
+# A strip is so much longer than the map asks for.
+SPARE = 1.05
 STOPPED_EARLY = 4
+
+
+def make_strip(options, nodes, flags):
+    """Returns a strip on which a map comes to have `nodes` nodes, and how many frames it has."""
+    per_view = NODES_OF_VIEW * options.nodes_in_view / NODES_IN_VIEW
+    views = max(1.0 + options.speed, SPARE * nodes / per_view)
+    frames = math.ceil((views - 1.0) / options.speed) + 1
+    hint = max(NODES_OF_VIEW, math.ceil(views * NODES_OF_VIEW))
+    return simulate(options.bin / "ed_simulate", "strip",
+                    [f"--nodes_hint={hint}", f"--frames={frames}", *options.simulate_flags, *flags],
+                    options.work / "sequences", options.fresh), frames
 
 
 class Scheme:

@@ -2,6 +2,9 @@
 #ifndef CERES_ED_GRAPH_DEFORMATION_GRAPH_H_
 #define CERES_ED_GRAPH_DEFORMATION_GRAPH_H_
 
+#include <ceres_ed/util/memory_use.h>
+
+#include <cstddef>
 #include <deque>
 #include <vector>
 
@@ -45,9 +48,15 @@ class DeformationGraph {
     CHECK(edge.to >= 0 && edge.to < num_nodes() && edge.to != edge.from) << "edge to " << edge.to;
     const int index = num_edges();
     edges_.push_back(edge);
-    incident_edges_[edge.from].push_back(index);
-    incident_edges_[edge.to].push_back(index);
+    PushBackTightly(index, &incident_edges_[edge.from]);
+    PushBackTightly(index, &incident_edges_[edge.to]);
     return index;
+  }
+
+  // Of the nodes alone, and of the edges with the lists of incident ones.
+  std::size_t NodeHeapBytes() const { return HeapBytesOf(positions_); }
+  std::size_t EdgeHeapBytes() const {
+    return HeapBytesOf(edges_) + HeapBytesOfAll(incident_edges_);
   }
 
  private:

@@ -42,6 +42,8 @@ class DeformationState {
     for (int j = old_size; j < num_nodes; ++j) SetNodeToRest(node(j));
   }
 
+  std::size_t HeapBytes() const { return nodes_.HeapBytes(); }
+
   CameraPose camera_from_map;
 
  private:

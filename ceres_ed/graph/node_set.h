@@ -2,6 +2,8 @@
 #ifndef CERES_ED_GRAPH_NODE_SET_H_
 #define CERES_ED_GRAPH_NODE_SET_H_
 
+#include <ceres_ed/util/memory_use.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -36,6 +38,7 @@ class NodeSet {
   int size() const { return static_cast<int>(nodes_.size()); }
   bool empty() const { return nodes_.empty(); }
   void Sort() { std::sort(nodes_.begin(), nodes_.end()); }
+  std::size_t HeapBytes() const { return HeapBytesOf(marks_) + HeapBytesOf(nodes_); }
 
  private:
   std::vector<char> marks_;

@@ -12,73 +12,146 @@ namespace {
 using nlohmann::json;
 
 constexpr char kFormat[] = "ceres_ed checkpoint";
+const std::vector<double> kProbe = {1.0};
+
+// The parts of CBOR (RFC 8949) that a checkpoint has.
+constexpr char kOpenMap = '\xbf';
+constexpr char kCloseMap = '\xff';
+constexpr unsigned char kText = 0x60;
+constexpr unsigned char kBytes = 0x40;
+constexpr unsigned char kUnsigned = 0x00;
+// Added to these: eight bytes follow, the largest first.
+constexpr unsigned char kEightBytes = 27;
 
 // FNV-1a: what damage does to a file, it sees.
-std::uint64_t Checksum(const std::vector<std::uint8_t>& bytes) {
+std::uint64_t Checksum(const void* data, std::size_t size) {
+  const auto* bytes = static_cast<const unsigned char*>(data);
   std::uint64_t hash = 14695981039346656037ull;
-  for (const std::uint8_t byte : bytes) hash = (hash ^ byte) * 1099511628211ull;
+  for (std::size_t i = 0; i < size; ++i) hash = (hash ^ bytes[i]) * 1099511628211ull;
   return hash;
 }
 
+void PutNumber(std::uint64_t number, std::size_t at, std::string* bytes) {
+  for (std::size_t i = 0; i < 8; ++i) {
+    (*bytes)[at + i] = static_cast<char>(number >> (8 * (7 - i)) & 0xff);
+  }
+}
+
+// A number of its own, or the length of what follows.
+void AppendHead(unsigned char type, std::uint64_t number, std::string* bytes) {
+  bytes->push_back(static_cast<char>(type + kEightBytes));
+  bytes->append(8, '\0');
+  PutNumber(number, bytes->size() - 8, bytes);
+}
+
+void AppendText(const std::string& text, std::string* bytes) {
+  AppendHead(kText, text.size(), bytes);
+  *bytes += text;
+}
+
 template <typename T>
-json Pack(const std::vector<T>& values) {
-  std::vector<std::uint8_t> bytes(values.size() * sizeof(T));
-  if (!values.empty()) std::memcpy(bytes.data(), values.data(), bytes.size());
-  return json::binary(std::move(bytes));
+void AppendArray(const std::string& name, const std::vector<T>& values, std::string* bytes) {
+  AppendText(name, bytes);
+  const std::size_t size = values.size() * sizeof(T);
+  AppendHead(kBytes, size, bytes);
+  if (size > 0) bytes->append(reinterpret_cast<const char*>(values.data()), size);
+}
+
+// All that stands before the payload, with the payload's length in the last eight bytes.
+std::string FileHead(std::uint64_t length) {
+  std::string bytes(1, kOpenMap);
+  AppendText("format", &bytes);
+  AppendText(kFormat, &bytes);
+  AppendText("version", &bytes);
+  AppendHead(kUnsigned, kCheckpointVersion, &bytes);
+  // Numbers stand in the machine's own order of bytes; its probe tells another machine's from them.
+  AppendArray("probe", kProbe, &bytes);
+  AppendText("payload", &bytes);
+  AppendHead(kBytes, length, &bytes);
+  return bytes;
+}
+
+// And all that stands behind it.
+std::string FileTail(std::string_view payload) {
+  std::string bytes;
+  AppendText("checksum", &bytes);
+  AppendHead(kUnsigned, Checksum(payload.data(), payload.size()), &bytes);
+  bytes.push_back(kCloseMap);
+  return bytes;
+}
+
+// The payload of a file as a CheckpointWriter leaves it, where it is whole; else nothing.
+std::string_view PayloadOf(std::string_view file) {
+  const std::size_t around = FileHead(0).size() + FileTail({}).size();
+  if (file.size() < around) return {};
+  const std::string head = FileHead(file.size() - around);
+  if (file.substr(0, head.size()) != head) return {};
+  const std::string_view payload = file.substr(head.size(), file.size() - around);
+  return file.substr(head.size() + payload.size()) == FileTail(payload) ? payload
+                                                                        : std::string_view();
+}
+
+// Why a file is none that PayloadOf() takes.
+Status WhatIsWrong(std::string_view bytes) {
+  const json file = json::from_cbor(bytes, /*strict=*/true, /*allow_exceptions=*/false);
+  if (!file.is_object() || file.value("format", json()) != kFormat) {
+    return Status::Error("is no checkpoint, expected one that a run has left");
+  }
+  if (file.value("version", json()) != kCheckpointVersion) {
+    return Status::Error("is of checkpoint version " + file.value("version", json()).dump() +
+                         ", expected " + std::to_string(kCheckpointVersion));
+  }
+  std::vector<std::uint8_t> probe(kProbe.size() * sizeof(double));
+  std::memcpy(probe.data(), kProbe.data(), probe.size());
+  if (file.value("probe", json()) != json::binary(std::move(probe))) {
+    return Status::Error("is from another kind of machine, expected one with this order of bytes");
+  }
+  return Status::Error("is damaged, expected the checksum that it was written with");
 }
 
 }  // namespace
 
-// Groups that have been entered, the outermost first.
-struct CheckpointWriter::Impl {
-  std::vector<std::pair<std::string, json>> groups{{"", json::object()}};
+CheckpointWriter::CheckpointWriter() : bytes_(FileHead(0)), payload_at_(bytes_.size()) {
+  bytes_.push_back(kOpenMap);
+}
 
-  json& group() { return groups.back().second; }
-};
-
-CheckpointWriter::CheckpointWriter() : impl_(new Impl) {}
-CheckpointWriter::~CheckpointWriter() = default;
-
-std::string CheckpointWriter::Finish() const {
-  CHECK_EQ(impl_->groups.size(), 1u) << "a group was not left";
-  std::vector<std::uint8_t> payload = json::to_cbor(impl_->groups[0].second);
-  // Numbers stand in the machine's own order of bytes; its probe tells another machine's from them.
-  json file = {{"format", kFormat},
-               {"version", kCheckpointVersion},
-               {"probe", Pack(std::vector<double>{1.0})},
-               {"checksum", Checksum(payload)}};
-  file["payload"] = json::binary(std::move(payload));
-  std::string bytes;
-  json::to_cbor(file, bytes);
-  return bytes;
+std::string CheckpointWriter::Finish() {
+  CHECK_EQ(depth_, 0) << "a group was not left, or the bytes are gone";
+  --depth_;
+  bytes_.push_back(kCloseMap);
+  const std::size_t length = bytes_.size() - payload_at_;
+  PutNumber(length, payload_at_ - 8, &bytes_);
+  bytes_ += FileTail(std::string_view(bytes_).substr(payload_at_));
+  return std::move(bytes_);
 }
 
 void CheckpointWriter::Enter(const std::string& group) {
-  impl_->groups.emplace_back(group, json::object());
+  ++depth_;
+  AppendText(group, &bytes_);
+  bytes_.push_back(kOpenMap);
 }
 
 void CheckpointWriter::Leave() {
-  CHECK_GE(impl_->groups.size(), 2u);
-  auto [name, group] = std::move(impl_->groups.back());
-  impl_->groups.pop_back();
-  impl_->group()[name] = std::move(group);
+  CHECK_GE(depth_, 1);
+  --depth_;
+  bytes_.push_back(kCloseMap);
 }
 
 void CheckpointWriter::Array(const std::string& name, std::vector<double>* values) {
-  impl_->group()[name] = Pack(*values);
+  AppendArray(name, *values, &bytes_);
 }
 
 void CheckpointWriter::Array(const std::string& name, std::vector<int>* values) {
-  impl_->group()[name] = Pack(*values);
+  AppendArray(name, *values, &bytes_);
 }
 
 void CheckpointWriter::Array(const std::string& name, std::vector<std::uint8_t>* values) {
-  impl_->group()[name] = Pack(*values);
+  AppendArray(name, *values, &bytes_);
 }
 
 void CheckpointWriter::Text(const std::string& name, std::string* text) {
   // Paths need not be UTF-8, which CBOR asks of its texts.
-  impl_->group()[name] = Pack(std::vector<std::uint8_t>(text->begin(), text->end()));
+  AppendArray(name, std::vector<std::uint8_t>(text->begin(), text->end()), &bytes_);
 }
 
 struct CheckpointReader::Impl {
@@ -107,23 +180,10 @@ CheckpointReader::CheckpointReader() : impl_(new Impl) {}
 CheckpointReader::~CheckpointReader() = default;
 
 StatusOr<std::unique_ptr<CheckpointReader>> CheckpointReader::Open(std::string_view bytes) {
-  const json file = json::from_cbor(bytes, /*strict=*/true, /*allow_exceptions=*/false);
-  if (!file.is_object() || file.value("format", json()) != kFormat) {
-    return Status::Error("is no checkpoint, expected one that a run has left");
-  }
-  if (file.value("version", json()) != kCheckpointVersion) {
-    return Status::Error("is of checkpoint version " + file.value("version", json()).dump() +
-                         ", expected " + std::to_string(kCheckpointVersion));
-  }
-  if (file.value("probe", json()) != Pack(std::vector<double>{1.0})) {
-    return Status::Error("is from another kind of machine, expected one with this order of bytes");
-  }
-  const json payload = file.value("payload", json());
-  if (!payload.is_binary() || file.value("checksum", json()) != Checksum(payload.get_binary())) {
-    return Status::Error("is damaged, expected the checksum that it was written with");
-  }
+  const std::string_view payload = PayloadOf(bytes);
+  if (payload.empty()) return WhatIsWrong(bytes);
   std::unique_ptr<CheckpointReader> reader(new CheckpointReader);
-  reader->impl_->root = json::from_cbor(payload.get_binary(), true, false);
+  reader->impl_->root = json::from_cbor(payload, true, false);
   if (!reader->impl_->root.is_object()) return Status::Error("has no contents, expected a state");
   reader->impl_->groups = {&reader->impl_->root};
   return StatusOr<std::unique_ptr<CheckpointReader>>(std::move(reader));

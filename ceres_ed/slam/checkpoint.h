@@ -6,12 +6,14 @@
 #ifndef CERES_ED_SLAM_CHECKPOINT_H_
 #define CERES_ED_SLAM_CHECKPOINT_H_
 
+#include <ceres_ed/util/chunked_rows.h>
 #include <ceres_ed/util/status.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -24,7 +26,7 @@
 namespace ceres_ed {
 
 // Of what Exchange() lists; others are refused.
-inline constexpr int kCheckpointVersion = 2;
+inline constexpr int kCheckpointVersion = 3;
 
 // Named values on their way to the bytes or back. Loading never crashes: what is missing or of
 // another size leaves its target as it is and makes status() an error.
@@ -74,6 +76,38 @@ class CheckpointArchive {
     }
   }
 
+  // Rows as they lie in memory, which must have no gaps: for many that have a compact form already.
+  // Loading gives them the number that was saved.
+  template <typename T>
+  void Rows(const std::string& name, std::vector<T>* rows) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    std::vector<std::uint8_t> bytes;
+    if (saving()) {
+      bytes.resize(rows->size() * sizeof(T));
+      if (!bytes.empty()) std::memcpy(bytes.data(), rows->data(), bytes.size());
+    }
+    Array(name, &bytes);
+    if (saving() || !CheckWhole(name, bytes.size(), sizeof(T))) return;
+    rows->resize(bytes.size() / sizeof(T));
+    if (!bytes.empty()) std::memcpy(rows->data(), bytes.data(), bytes.size());
+  }
+  template <typename T>
+  void Rows(const std::string& name, ChunkedRows<T>* rows) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const std::size_t size = static_cast<std::size_t>(rows->width()) * sizeof(T);
+    std::vector<std::uint8_t> bytes;
+    if (saving()) {
+      bytes.resize(rows->size() * size);
+      for (std::size_t r = 0; r < rows->size(); ++r) {
+        std::memcpy(&bytes[r * size], (*rows)[r], size);
+      }
+    }
+    Array(name, &bytes);
+    if (saving() || !CheckWhole(name, bytes.size(), size)) return;
+    rows->Resize(bytes.size() / size);
+    for (std::size_t r = 0; r < rows->size(); ++r) std::memcpy((*rows)[r], &bytes[r * size], size);
+  }
+
   // Ok, or what is wrong with the bytes; the first thing counts.
   const Status& status() const { return status_; }
 
@@ -115,6 +149,13 @@ class CheckpointArchive {
     return false;
   }
 
+  bool CheckWhole(const std::string& name, std::size_t bytes, std::size_t row) {
+    if (bytes % row == 0) return true;
+    Fail(name + " has " + std::to_string(bytes) + " bytes, expected a multiple of " +
+         std::to_string(row));
+    return false;
+  }
+
   template <typename T>
   void Fixed(const std::string& name, T* values, std::size_t count) {
     std::vector<T> flat(values, values + count);
@@ -127,14 +168,14 @@ class CheckpointArchive {
   Status status_ = Status::Ok();
 };
 
-// Collects what is exchanged.
+// Collects what is exchanged, as the bytes that it becomes: a large map is there but once more.
 class CheckpointWriter : public CheckpointArchive {
  public:
   CheckpointWriter();
-  ~CheckpointWriter() override;
 
-  // The bytes: CBOR, with a version and a checksum. Every group must have been left.
-  std::string Finish() const;
+  // Returns the bytes: CBOR, with a version and a checksum. Every group must have been left. Only
+  // once.
+  std::string Finish();
 
   bool saving() const override { return true; }
   void Enter(const std::string& group) override;
@@ -145,8 +186,10 @@ class CheckpointWriter : public CheckpointArchive {
   void Text(const std::string& name, std::string* text) override;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::string bytes_;
+  // Where the payload starts.
+  std::size_t payload_at_ = 0;
+  int depth_ = 0;
 };
 
 // Hands out what a CheckpointWriter has collected.

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <utility>
 
 namespace ceres_ed {
@@ -36,13 +37,6 @@ void ExchangeNodes(const std::string& name, NodeSet* nodes, CheckpointArchive* a
   for (const int node : list) nodes->Add(node);
 }
 
-// The nodes of one point, with nothing uninitialised behind them.
-struct BindingRow {
-  std::array<int, kMaxBoundNodes> nodes = {};
-  std::array<double, kMaxBoundNodes> weights = {};
-  int size = 0;
-};
-
 }  // namespace
 
 void DeformableMap::Exchange(CheckpointArchive* archive) {
@@ -63,7 +57,7 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
   archive->Column("edge_to", &edges, [](GraphEdge& e) -> int& { return e.to; });
   archive->Column("edge_weight", &edges, [](GraphEdge& e) -> double& { return e.weight; });
   std::vector<double> parameters;
-  for (int j = 0; j < state_.num_nodes(); ++j) {
+  for (int j = 0; archive->saving() && j < state_.num_nodes(); ++j) {
     parameters.insert(parameters.end(), state_.node(j), state_.node(j) + kNodeSize);
   }
   archive->Array("node_parameters", &parameters);
@@ -85,35 +79,7 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
 }
 
 void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
-  using Point = MapPoint;
-  std::vector<MapPoint> points(points_.begin(), points_.end());
-  ExchangeCount("slots", &points, archive);
-  archive->Column(
-      "position", &points, [](Point & p) -> auto& { return p.position; });
-  archive->Column(
-      "normal", &points, [](Point & p) -> auto& { return p.normal; });
-  archive->Column("weight", &points, [](Point& p) -> double& { return p.weight; });
-  archive->Column(
-      "color", &points, [](Point & p) -> auto& { return p.color; });
-  archive->Column("id", &points, [](Point& p) -> int& { return p.id; });
-  archive->Column("birth_frame", &points, [](Point& p) -> int& { return p.birth_frame; });
-  archive->Column(
-      "birth_position", &points, [](Point & p) -> auto& { return p.birth_position; });
-  archive->Column("contradictions", &points, [](Point& p) -> int& { return p.contradictions; });
-
-  std::vector<BindingRow> bindings(points.size());
-  for (std::size_t slot = 0; archive->saving() && slot < bindings.size(); ++slot) {
-    const Binding binding = skinning_[slot];
-    std::copy_n(binding.nodes, binding.size, bindings[slot].nodes.begin());
-    std::copy_n(binding.weights, binding.size, bindings[slot].weights.begin());
-    bindings[slot].size = binding.size;
-  }
-  archive->Column(
-      "bound_nodes", &bindings, [](BindingRow & b) -> auto& { return b.nodes; });
-  archive->Column(
-      "bound_weights", &bindings, [](BindingRow & b) -> auto& { return b.weights; });
-  archive->Column("bound_sizes", &bindings, [](BindingRow& b) -> int& { return b.size; });
-
+  points_.Exchange(archive);
   // Points are visited node by node: the order of each node's list is part of the result.
   std::vector<int> owned, owned_counts;
   for (const std::vector<int>& slots : points_of_node_) {
@@ -126,9 +92,6 @@ void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
   archive->Value("num_points", &num_points_);
   archive->Value("next_id", &next_id_);
   if (archive->saving() || !archive->status().ok()) return;
-  points_.assign(points.begin(), points.end());
-  skinning_ = Skinning(neighbors_);
-  for (const BindingRow& b : bindings) skinning_.Add(b.nodes.data(), b.weights.data(), b.size);
   points_of_node_.clear();
   auto next = owned.begin();
   for (const int count : owned_counts) {
@@ -184,32 +147,43 @@ void PendingNodes::Exchange(CheckpointArchive* archive) {
 }
 
 void TissueMemory::Exchange(CheckpointArchive* archive) {
-  // One row for each trace of each node.
-  struct Row {
-    int node = 0;
-    int moment = 0;
-    Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  };
-  std::vector<Row> rows;
-  for (int j = 0; j < static_cast<int>(traces_.size()); ++j) {
-    for (const Trace& trace : traces_[j]) rows.push_back({j, trace.moment, trace.translation});
-  }
-  int num_nodes = static_cast<int>(traces_.size());
   archive->Enter("memory");
   archive->Value("next_moment", &next_moment_);
   archive->Value("stride", &stride_);
-  archive->Value("kept", &kept_);
-  archive->Value("nodes", &num_nodes);
-  ExchangeCount("traces", &rows, archive);
-  archive->Column("node", &rows, [](Row& row) -> int& { return row.node; });
-  archive->Column("moment", &rows, [](Row& row) -> int& { return row.moment; });
+  ExchangeCount("moments", &moments_, archive);
   archive->Column(
-      "translation", &rows, [](Row & row) -> auto& { return row.translation; });
+      "origin", &moments_, [](Moment & m) -> auto& { return m.origin; });
+  archive->Column(
+      "step", &moments_, [](Moment & m) -> auto& { return m.step; });
+  // Runs and translations of all moments, one after the other.
+  std::vector<int> run_counts, first, count;
+  std::vector<std::array<std::uint16_t, 3>> translations;
+  for (const Moment& moment : moments_) {
+    run_counts.push_back(static_cast<int>(moment.runs.size()));
+    for (const Run& run : moment.runs) {
+      first.push_back(run.first);
+      count.push_back(run.count);
+    }
+    translations.insert(translations.end(), moment.translations.begin(), moment.translations.end());
+  }
+  archive->Array("run_counts", &run_counts);
+  archive->Array("run_first", &first);
+  archive->Array("run_count", &count);
+  archive->Rows("translations", &translations);
   archive->Leave();
   if (archive->saving() || !archive->status().ok()) return;
-  traces_.assign(static_cast<std::size_t>(num_nodes), {});
-  for (const Row& row : rows) traces_.at(row.node).push_back({row.moment, row.translation});
-  ListNodes();
+  alignments_.clear();
+  std::size_t next_run = 0;
+  auto next = translations.begin();
+  for (std::size_t m = 0; m < moments_.size(); ++m) {
+    Moment& moment = moments_[m];
+    for (int r = 0; r < run_counts.at(m); ++r, ++next_run) {
+      const Run run = {first.at(next_run), count.at(next_run)};
+      moment.runs.push_back(run);
+      moment.translations.insert(moment.translations.end(), next, next + run.count);
+      next += run.count;
+    }
+  }
 }
 
 void DeformableSlam::Exchange(CheckpointArchive* archive) {

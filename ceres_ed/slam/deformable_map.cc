@@ -1,7 +1,8 @@
 #include "ceres_ed/slam/deformable_map.h"
 
+#include <ceres_ed/util/memory_use.h>
+
 #include <algorithm>
-#include <utility>
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -49,40 +50,37 @@ void DeformableMap::SetNode(int node, const double* parameters) {
 }
 
 int DeformableMap::AddPoint(MapPoint point, const Binding& binding) {
-  CHECK_GE(binding.size, 1);
   point.id = next_id_++;
-  int slot = 0;
+  int slot = num_slots();
   if (free_slots_.empty()) {
-    slot = num_slots();
-    points_.push_back(std::move(point));
-    skinning_.Add(binding.nodes, binding.weights, binding.size);
+    points_.Resize(slot + 1);
   } else {
     slot = free_slots_.back();
     free_slots_.pop_back();
-    points_[slot] = std::move(point);
-    skinning_.Set(slot, binding.nodes, binding.weights, binding.size);
   }
-  points_of_node_[binding.nodes[0]].push_back(slot);
+  points_.Set(slot, point);
+  points_.Bind(slot, binding);
+  PushBackTightly(slot, &points_of_node_[binding.nodes[0]]);
   ++num_points_;
   return slot;
 }
 
 void DeformableMap::Rebind(int slot, const Binding& binding) {
   Detach(slot);
-  skinning_.Set(slot, binding.nodes, binding.weights, binding.size);
-  points_of_node_[binding.nodes[0]].push_back(slot);
+  points_.Bind(slot, binding);
+  PushBackTightly(slot, &points_of_node_[binding.nodes[0]]);
 }
 
 void DeformableMap::RemovePoint(int slot) {
   CHECK(alive(slot)) << "slot " << slot;
   Detach(slot);
-  points_[slot].id = -1;
+  points_.Remove(slot);
   free_slots_.push_back(slot);
   --num_points_;
 }
 
 void DeformableMap::Detach(int slot) {
-  std::vector<int>& owner = points_of_node_[skinning_[slot].nodes[0]];
+  std::vector<int>& owner = points_of_node_[points_.binding(slot).nodes[0]];
   owner.erase(std::find(owner.begin(), owner.end(), slot));
 }
 
@@ -122,6 +120,15 @@ std::vector<int> DeformableMap::NodesNearView(const ViewVolume& view) const {
   const auto outside = [&](int node) { return !view.MayTouch(NodePosition(node), kReach); };
   nodes.erase(std::remove_if(nodes.begin(), nodes.end(), outside), nodes.end());
   return nodes;
+}
+
+void DeformableMap::AddMemory(MapMemory* memory) const {
+  memory->nodes += graph_.NodeHeapBytes() + state_.HeapBytes() + HeapBytesOf(node_prior_);
+  memory->edges += graph_.EdgeHeapBytes();
+  memory->node_index += index_.HeapBytes();
+  memory->points += points_.PointHeapBytes();
+  memory->bindings += points_.BindingHeapBytes();
+  memory->point_lists += HeapBytesOfAll(points_of_node_) + HeapBytesOf(free_slots_);
 }
 
 }  // namespace ceres_ed

@@ -4,12 +4,11 @@
 
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
-#include <ceres_ed/graph/skinning.h>
+#include <ceres_ed/slam/map_memory.h>
+#include <ceres_ed/slam/map_points.h>
 #include <ceres_ed/slam/node_index.h>
 #include <ceres_ed/slam/view_volume.h>
 
-#include <array>
-#include <cstdint>
 #include <deque>
 #include <vector>
 
@@ -18,24 +17,6 @@
 namespace ceres_ed {
 
 class CheckpointArchive;
-
-// What the map knows of one point. Lengths are in map units.
-struct MapPoint {
-  // Where it is while all nodes are at rest.
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  // Unit length, at rest.
-  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  // Number of observations in the running average.
-  double weight = 0.0;
-  std::array<std::uint8_t, 3> color = {200, 200, 200};
-  // Never reused.
-  int id = -1;
-  int birth_frame = -1;
-  // In the camera frame of that frame.
-  Eigen::Vector3d birth_position = Eigen::Vector3d::Zero();
-  // Frames in which the camera saw through it, less those in which it saw it.
-  int contradictions = 0;
-};
 
 // How a frozen binding moves a point: v~ = gradient v + offset, map frame.
 struct LocalWarp {
@@ -57,20 +38,20 @@ struct LocalWarp {
 class DeformableMap {
  public:
   // `neighbors` nodes carry a point (m of Eq. 2), in [1, kMaxBoundNodes].
-  explicit DeformableMap(int neighbors = 4) : neighbors_(neighbors), skinning_(neighbors) {}
+  explicit DeformableMap(int neighbors = 4) : points_(neighbors) {}
 
-  int neighbors() const { return neighbors_; }
+  int neighbors() const { return points_.neighbors(); }
   const DeformationGraph& graph() const { return graph_; }
   const DeformationState& state() const { return state_; }
   void SetCamera(const CameraPose& camera_from_map) { state_.camera_from_map = camera_from_map; }
 
   // Slots of points, in use or not.
-  int num_slots() const { return static_cast<int>(points_.size()); }
+  int num_slots() const { return points_.size(); }
   int num_points() const { return num_points_; }
-  bool alive(int slot) const { return points_[slot].id >= 0; }
-  const MapPoint& point(int slot) const { return points_[slot]; }
-  MapPoint& mutable_point(int slot) { return points_[slot]; }
-  Binding binding(int slot) const { return skinning_[slot]; }
+  bool alive(int slot) const { return points_.id(slot) >= 0; }
+  MapPoint point(int slot) const { return points_[slot]; }
+  void SetPoint(int slot, const MapPoint& point) { points_.Set(slot, point); }
+  PointBinding binding(int slot) const { return points_.binding(slot); }
   // Points whose strongest node this is.
   const std::vector<int>& points_of_node(int node) const { return points_of_node_[node]; }
 
@@ -85,7 +66,7 @@ class DeformableMap {
 
   // Returns the slot of a new point; its id is the next one.
   int AddPoint(MapPoint point, const Binding& binding);
-  // Gives a point to other nodes.
+  // Gives a point to other nodes. Weights are rounded here as there (MapPoints::Kept).
   void Rebind(int slot, const Binding& binding);
   void RemovePoint(int slot);
 
@@ -104,6 +85,9 @@ class DeformableMap {
   // The nodes that may carry something in view, by number, and few others.
   std::vector<int> NodesNearView(const ViewVolume& view) const;
 
+  // Adds what it holds to that of its owners.
+  void AddMemory(MapMemory* memory) const;
+
   // Saves everything, or loads it in the place of what is there.
   void Exchange(CheckpointArchive* archive);
 
@@ -112,13 +96,11 @@ class DeformableMap {
   void ExchangeGraph(CheckpointArchive* archive);
   void ExchangePoints(CheckpointArchive* archive);
 
-  int neighbors_;
   DeformationGraph graph_;
   DeformationState state_;
-  Skinning skinning_;
   NodeIndex index_;
   std::deque<Eigen::Vector3d> node_prior_;
-  std::deque<MapPoint> points_;
+  MapPoints points_;
   std::vector<int> free_slots_;
   std::deque<std::vector<int>> points_of_node_;
   int num_points_ = 0;

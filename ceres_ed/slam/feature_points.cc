@@ -62,7 +62,7 @@ std::vector<MapObservation> FeaturePoints::Observations() const {
   for (const Feature& f : features_) {
     MapObservation o;
     o.position = f.at_rest;
-    o.binding = f.binding();
+    o.binding = PointBinding(f.binding());
     o.target = f.in_camera;
     observations.push_back(o);
   }

@@ -5,7 +5,9 @@
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/problem/problem_config.h>
+#include <ceres_ed/util/memory_use.h>
 
+#include <cstddef>
 #include <deque>
 #include <vector>
 
@@ -37,6 +39,8 @@ class LevelWindowBuilder {
 
   // The window's index of a map node; -1 for one outside. Of the last window built.
   int Local(int node) const { return local_[node]; }
+
+  std::size_t HeapBytes() const { return HeapBytesOf(local_) + HeapBytesOf(taken_); }
 
  private:
   void Take(const DeformationGraph& graph,

@@ -14,6 +14,7 @@
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/util/status.h>
 
+#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,7 +28,7 @@ namespace ceres_ed {
 struct MapObservation {
   // At rest.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  Binding binding;
+  PointBinding binding;
   // Camera frame, map units.
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   // Of the observed surface, camera frame, unit length.
@@ -156,6 +157,12 @@ class Levels {
   PendingNodes& pending() { return pending_; }
   // Null where nothing is marginalised.
   const MarginalLevel* marginal() const { return marginal_.get(); }
+
+  // Of what it keeps of every node; solvers hold what the last windows took.
+  std::size_t HeapBytes() const {
+    return windows_.HeapBytes() + pending_.HeapBytes() + point_relevant_.HeapBytes() +
+           moved_.HeapBytes();
+  }
 
   // Drops what the solvers keep from one frame for the next. It saves time, but the order in which
   // they sum depends on it, and with that the last digits.

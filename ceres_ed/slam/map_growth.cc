@@ -123,15 +123,14 @@ void RebindNear(int first_new_node,
                 PlaceBinder* binder,
                 DeformableMap* map) {
   for (const VisiblePoint& seen : visible) {
-    const Binding old = map->binding(seen.slot);
-    const Binding fresh = binder->Bind(seen.in_map, map->neighbors());
+    const PointBinding fresh = MapPoints::Kept(binder->Bind(seen.in_map, map->neighbors()));
     const bool touches_new = std::any_of(
         fresh.nodes, fresh.nodes + fresh.size, [&](int node) { return node >= first_new_node; });
-    if (!touches_new || old.size < 1) continue;
+    if (!touches_new) continue;
     MapPoint moved = map->point(seen.slot);
     if (!PlacePoint(*map, fresh, seen.in_map, seen.normal_in_map, &moved)) continue;
     map->Rebind(seen.slot, fresh);
-    map->mutable_point(seen.slot) = moved;
+    map->SetPoint(seen.slot, moved);
   }
 }
 
@@ -214,14 +213,14 @@ MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
   result.new_nodes = map->graph().num_nodes() - first_new_node;
   if (result.new_nodes > 0) RebindNear(first_new_node, visible, &binder, map);
   for (const Candidate& candidate : candidates) {
-    const Binding binding = binder.Bind(candidate.in_map, map->neighbors());
+    const PointBinding binding = MapPoints::Kept(binder.Bind(candidate.in_map, map->neighbors()));
     MapPoint point;
     if (!PlacePoint(*map, binding, candidate.in_map, candidate.normal_in_map, &point)) continue;
     point.weight = 1.0;
     point.color = candidate.color;
     point.birth_frame = frame;
     point.birth_position = candidate.in_camera;
-    map->AddPoint(std::move(point), binding);
+    map->AddPoint(point, binding);
     ++result.new_points;
   }
   return result;

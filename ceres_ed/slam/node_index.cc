@@ -1,5 +1,7 @@
 #include "ceres_ed/slam/node_index.h"
 
+#include <ceres_ed/util/memory_use.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -101,6 +103,15 @@ std::vector<int> NodeIndex::NearView(const ViewVolume& view, double reach) const
   }
   std::sort(nodes.begin(), nodes.end());
   return nodes;
+}
+
+std::size_t NodeIndex::HeapBytes() const {
+  std::size_t bytes = HeapBytesOf(cell_of_node_);
+  for (const auto& level : levels_) {
+    bytes += HeapBytesOf(level);
+    for (const auto& [key, cell] : level) bytes += HeapBytesOf(cell.members);
+  }
+  return bytes;
 }
 
 }  // namespace ceres_ed

@@ -5,6 +5,7 @@
 #include <ceres_ed/slam/view_volume.h>
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <unordered_map>
@@ -24,6 +25,8 @@ class NodeIndex {
   // The nodes of every cell that comes within `reach` of the view, by number: all nodes that do,
   // and some more.
   std::vector<int> NearView(const ViewVolume& view, double reach) const;
+
+  std::size_t HeapBytes() const;
 
  private:
   using Key = std::uint64_t;

@@ -5,7 +5,9 @@
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/node_set.h>
 #include <ceres_ed/slam/level_window.h>
+#include <ceres_ed/util/memory_use.h>
 
+#include <cstddef>
 #include <deque>
 #include <utility>
 #include <vector>
@@ -39,6 +41,11 @@ class PendingNodes {
 
   // Unsettled nodes, by number.
   const std::vector<int>& Unsettled();
+
+  std::size_t HeapBytes() const {
+    return HeapBytesOf(changes_) + listed_.HeapBytes() + solved_.HeapBytes() +
+           HeapBytesOf(farthest_);
+  }
 
   void Exchange(CheckpointArchive* archive);
 

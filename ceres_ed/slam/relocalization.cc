@@ -22,8 +22,8 @@ PointCloud MapCloud(const DeformableMap& map) {
   int count = 0;
   for (int slot = 0; slot < map.num_slots(); ++slot) {
     if (!map.alive(slot) || count++ % stride != 0) continue;
-    const MapPoint& point = map.point(slot);
-    const Binding binding = map.binding(slot);
+    const MapPoint point = map.point(slot);
+    const PointBinding binding = map.binding(slot);
     cloud.points.push_back(WarpPoint(map.graph(), map.state(), binding, point.position));
     cloud.normals.push_back(WarpNormal(map.state(), binding, point.normal));
   }

@@ -111,6 +111,14 @@ StatusOr<std::unique_ptr<DeformableSlam>> DeformableSlam::Create(const PinholeCa
   return slam;
 }
 
+MapMemory DeformableSlam::Memory() const {
+  MapMemory memory;
+  map_.AddMemory(&memory);
+  memory.tissue_memory = memory_.HeapBytes();
+  memory.levels = levels_->HeapBytes();
+  return memory;
+}
+
 FrameReport DeformableSlam::Process(const SlamFrame& frame) {
   FrameReport report;
   report.number = frame.number;

@@ -149,6 +149,8 @@ class DeformableSlam {
   double unit() const { return unit_; }
   // The camera after the last frame, in map units.
   const CameraPose& camera_from_map() const { return map_.state().camera_from_map; }
+  // What the map holds, and what is kept of its nodes for the next frames.
+  MapMemory Memory() const;
   // Whether the last tracked frame had data on a node, or has added it.
   bool HasData(int node) const {
     return levels_->point_relevant().Has(node) || node >= nodes_before_growth_;

@@ -190,8 +190,9 @@ void DeformableSlam::Fuse(const AssociationResult& association, double noise) {
   for (const Association& m : association.matches) {
     if (std::abs(m.distance) > width) continue;
     const int slot = visible_[m.visible].slot;
-    MapPoint& point = map_.mutable_point(slot);
-    const LocalWarp warp = map_.WarpOf(map_.binding(slot));
+    MapPoint point = map_.point(slot);
+    const PointBinding binding = map_.binding(slot);
+    const LocalWarp warp = map_.WarpOf(binding);
     const double share = m.weight / (point.weight + m.weight);
     // Along the normal alone: back-projection knows nothing of where along the surface.
     const Eigen::Vector3d correction = pose.rotation.conjugate() * (-m.distance * m.patch->normal);
@@ -201,9 +202,13 @@ void DeformableSlam::Fuse(const AssociationResult& association, double noise) {
     point.normal = ((1.0 - share) * point.normal + share * normal.normalized()).normalized();
     point.weight = std::min(point.weight + m.weight, options_.max_point_weight);
     point.contradictions = std::max(0, point.contradictions - 1);
+    map_.SetPoint(slot, point);
   }
   for (const int i : association.seen_through) {
-    if (++map_.mutable_point(visible_[i].slot).contradictions < kMaxContradictions) continue;
+    MapPoint point = map_.point(visible_[i].slot);
+    ++point.contradictions;
+    map_.SetPoint(visible_[i].slot, point);
+    if (point.contradictions < kMaxContradictions) continue;
     map_.RemovePoint(visible_[i].slot);
     visible_[i].slot = -1;
   }

@@ -1,8 +1,11 @@
 #include "ceres_ed/slam/tissue_memory.h"
 
+#include <ceres_ed/util/memory_use.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <Eigen/SVD>
 #include <cost_functions/node_parameters.h>
@@ -14,12 +17,70 @@ namespace {
 constexpr double kLeastLikeness = 1e-6;
 // Mean square distance from a line, squared map units, from which on nodes tell a turn.
 constexpr double kLeastExtent = 1.0;
+// Of a component of a translation.
+constexpr double kMostSteps = 65535.0;
 
 Eigen::Vector3d PlaceOf(const DeformableMap& map, int node, const Eigen::Vector3d& translation) {
   return map.graph().position(node) + translation;
 }
 
+std::vector<int> ByNumber(std::vector<int> nodes) {
+  if (!std::is_sorted(nodes.begin(), nodes.end())) std::sort(nodes.begin(), nodes.end());
+  return nodes;
+}
+
 }  // namespace
+
+Eigen::Vector3d TissueMemory::Moment::Translation(std::size_t row) const {
+  const std::array<std::uint16_t, 3>& steps = translations[row];
+  return origin + step.cwiseProduct(Eigen::Vector3d(steps[0], steps[1], steps[2]));
+}
+
+TissueMemory::Moment TissueMemory::MakeMoment(const std::vector<int>& nodes,
+                                              const DeformableMap& map) {
+  Moment moment;
+  if (nodes.empty()) return moment;
+  const auto translation = [&map](int node) { return NodeTranslation(map.state().node(node)); };
+  moment.origin = translation(nodes[0]);
+  Eigen::Vector3d high = moment.origin;
+  int num_runs = 0;
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    num_runs += k == 0 || nodes[k] != nodes[k - 1] + 1;
+    moment.origin = moment.origin.cwiseMin(translation(nodes[k]));
+    high = high.cwiseMax(translation(nodes[k]));
+  }
+  moment.step = (high - moment.origin) / kMostSteps;
+  moment.runs.reserve(num_runs);
+  moment.translations.reserve(nodes.size());
+  for (std::size_t k = 0; k < nodes.size(); ++k) {
+    if (k == 0 || nodes[k] != nodes[k - 1] + 1) moment.runs.push_back({nodes[k], 0});
+    ++moment.runs.back().count;
+    std::array<std::uint16_t, 3> steps = {};
+    for (int i = 0; i < 3; ++i) {
+      // Where all nodes have the same there is no step.
+      if (!(moment.step[i] > 0.0)) continue;
+      const double along = (translation(nodes[k])[i] - moment.origin[i]) / moment.step[i];
+      steps[i] = static_cast<std::uint16_t>(std::clamp(std::round(along), 0.0, kMostSteps));
+    }
+    moment.translations.push_back(steps);
+  }
+  return moment;
+}
+
+template <typename Visit>
+void TissueMemory::VisitCommon(const Moment& moment, const std::vector<int>& nodes, Visit visit) {
+  auto next = nodes.begin();
+  std::size_t row = 0;
+  for (const Run& run : moment.runs) {
+    next = std::lower_bound(next, nodes.end(), run.first);
+    if (next == nodes.end()) return;
+    for (; next != nodes.end() && *next < run.first + run.count; ++next) {
+      visit(static_cast<std::size_t>(next - nodes.begin()),
+            moment.Translation(row + static_cast<std::size_t>(*next - run.first)));
+    }
+    row += static_cast<std::size_t>(run.count);
+  }
+}
 
 // Sums over the nodes that are in view now and were at a moment: places then (p) and now (q).
 struct TissueMemory::Comparison {
@@ -68,17 +129,21 @@ void TissueMemory::BeginFrame(const NodeSet& observed, DeformableMap* map) {
 }
 
 void TissueMemory::Look(const NodeSet& observed, const DeformableMap& map) {
-  std::vector<Comparison> comparisons(nodes_of_moment_.size());
-  for (const int node : observed.nodes()) {
+  const std::vector<int> nodes = ByNumber(observed.nodes());
+  std::vector<Eigen::Vector3d> now;
+  now.reserve(nodes.size());
+  for (const int node : nodes) {
     anchored_.Add(node);
-    if (node >= static_cast<int>(traces_.size())) continue;
-    const Eigen::Vector3d now = map.NodePosition(node);
-    for (const Trace& trace : traces_[node]) {
-      comparisons[trace.moment / stride_].Add(PlaceOf(map, node, trace.translation), now);
-    }
+    now.push_back(map.NodePosition(node));
   }
   alignments_.clear();
-  for (const Comparison& c : comparisons) alignments_.push_back(Align(c));
+  for (const Moment& moment : moments_) {
+    Comparison comparison;
+    VisitCommon(moment, nodes, [&](std::size_t k, const Eigen::Vector3d& translation) {
+      comparison.Add(PlaceOf(map, nodes[k], translation), now[k]);
+    });
+    alignments_.push_back(Align(comparison));
+  }
   JudgeLikeness();
 }
 
@@ -97,24 +162,27 @@ void TissueMemory::JudgeLikeness() {
   }
 }
 
-Eigen::Vector3d TissueMemory::Recall(int node, const DeformableMap& map) const {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double total = 0.0;
-  for (const Trace& trace : traces_[node]) {
-    const Alignment& now_from_then = alignments_[trace.moment / stride_];
-    sum +=
-        now_from_then.likeness * (now_from_then.rotation * PlaceOf(map, node, trace.translation) +
-                                  now_from_then.translation);
-    total += now_from_then.likeness;
-  }
-  return sum / total - map.graph().position(node);
-}
-
 void TissueMemory::UpdatePriors(const std::vector<int>& nodes, DeformableMap* map) {
+  std::vector<int> wanted;
   for (const int node : nodes) {
-    if (anchored_.Has(node)) continue;
-    if (node < static_cast<int>(traces_.size()) && !traces_[node].empty()) {
-      map->SetNodePrior(node, Recall(node, *map));
+    if (!anchored_.Has(node)) wanted.push_back(node);
+  }
+  std::sort(wanted.begin(), wanted.end());
+  std::vector<Eigen::Vector3d> sums(wanted.size(), Eigen::Vector3d::Zero());
+  std::vector<double> totals(wanted.size(), 0.0);
+  for (std::size_t m = 0; m < alignments_.size(); ++m) {
+    const Alignment& now_from_then = alignments_[m];
+    VisitCommon(moments_[m], wanted, [&](std::size_t k, const Eigen::Vector3d& translation) {
+      sums[k] +=
+          now_from_then.likeness * (now_from_then.rotation * PlaceOf(*map, wanted[k], translation) +
+                                    now_from_then.translation);
+      totals[k] += now_from_then.likeness;
+    });
+  }
+  for (std::size_t k = 0; k < wanted.size(); ++k) {
+    const int node = wanted[k];
+    if (totals[k] > 0.0) {
+      map->SetNodePrior(node, sums[k] / totals[k] - map->graph().position(node));
     } else {
       map->SetNodePrior(node, NodeTranslation(map->state().node(node)));
       anchored_.Add(node);
@@ -123,44 +191,47 @@ void TissueMemory::UpdatePriors(const std::vector<int>& nodes, DeformableMap* ma
 }
 
 std::vector<int> TissueMemory::Affected() const {
-  NodeSet affected;
-  for (std::size_t k = 0; k < alignments_.size(); ++k) {
-    if (alignments_[k].common == 0) continue;
-    for (const int node : nodes_of_moment_[k]) {
-      if (!anchored_.Has(node)) affected.Add(node);
+  std::vector<Run> runs;
+  for (std::size_t m = 0; m < alignments_.size(); ++m) {
+    if (alignments_[m].common == 0) continue;
+    runs.insert(runs.end(), moments_[m].runs.begin(), moments_[m].runs.end());
+  }
+  std::sort(runs.begin(), runs.end(), [](const Run& a, const Run& b) { return a.first < b.first; });
+  std::vector<int> affected;
+  int next = 0;
+  for (const Run& run : runs) {
+    for (next = std::max(next, run.first); next < run.first + run.count; ++next) {
+      if (!anchored_.Has(next)) affected.push_back(next);
     }
   }
-  affected.Sort();
-  return affected.nodes();
+  return affected;
 }
 
 void TissueMemory::Keep(const NodeSet& observed, const DeformableMap& map) {
   const int moment = next_moment_++;
   if (moment % stride_ != 0) return;
-  while (static_cast<int>(traces_.size()) < map.graph().num_nodes()) traces_.emplace_back();
-  nodes_of_moment_.push_back(observed.nodes());
-  for (const int node : observed.nodes()) {
-    traces_[node].push_back({moment, NodeTranslation(map.state().node(node))});
-  }
-  if (++kept_ > options_.max_moments) Thin();
+  moments_.push_back(MakeMoment(ByNumber(observed.nodes()), map));
+  if (static_cast<int>(moments_.size()) > options_.max_moments) Thin();
 }
 
-// All of the map, but only whenever the number of moments has doubled.
+// Whenever the number of moments has doubled.
 void TissueMemory::Thin() {
   stride_ *= 2;
-  kept_ = (next_moment_ - 1) / stride_ + 1;
-  const auto goes = [this](const Trace& trace) { return trace.moment % stride_ != 0; };
-  for (std::vector<Trace>& trace : traces_) {
-    trace.erase(std::remove_if(trace.begin(), trace.end(), goes), trace.end());
+  std::size_t kept = 0;
+  for (std::size_t m = 0; m < moments_.size(); m += 2) {
+    if (m > 0) moments_[kept] = std::move(moments_[m]);
+    ++kept;
   }
-  ListNodes();
+  moments_.resize(kept);
+  alignments_.clear();
 }
 
-void TissueMemory::ListNodes() {
-  nodes_of_moment_.assign(kept_, {});
-  for (int j = 0; j < static_cast<int>(traces_.size()); ++j) {
-    for (const Trace& trace : traces_[j]) nodes_of_moment_[trace.moment / stride_].push_back(j);
+std::size_t TissueMemory::HeapBytes() const {
+  std::size_t bytes = HeapBytesOf(moments_) + anchored_.HeapBytes() + HeapBytesOf(alignments_);
+  for (const Moment& moment : moments_) {
+    bytes += HeapBytesOf(moment.runs) + HeapBytesOf(moment.translations);
   }
+  return bytes;
 }
 
 }  // namespace ceres_ed

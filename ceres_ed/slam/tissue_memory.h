@@ -6,7 +6,9 @@
 #include <ceres_ed/slam/deformable_map.h>
 #include <ceres_ed/slam/node_prior_source.h>
 
-#include <deque>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include <Eigen/Core>
@@ -29,7 +31,8 @@ struct TissueMemoryOptions {
 // now, up to a common rigid motion, which is the gauge of map and camera.
 //
 // Within a frame: BeginFrame(), then Look() ahead of every solve, priors as they are asked for, and
-// Keep() at the end. The cost is that of the view and of the moments that share nodes with it.
+// Keep() at the end. The cost is that of the view and of the moments that share nodes with it, and
+// the memory six bytes a node of each moment, whatever else the map has.
 class TissueMemory final : public NodePriorSource {
  public:
   explicit TissueMemory(const TissueMemoryOptions& options) : options_(options) {}
@@ -52,13 +55,26 @@ class TissueMemory final : public NodePriorSource {
   // Keeps t_j of the nodes that are `observed`.
   void Keep(const NodeSet& observed, const DeformableMap& map);
 
+  std::size_t HeapBytes() const;
+
   // For checkpoints, between frames.
   void Exchange(CheckpointArchive* archive);
 
  private:
-  struct Trace {
-    int moment;
-    Eigen::Vector3d translation;
+  // Nodes first, first + 1, ...
+  struct Run {
+    int first = 0;
+    int count = 0;
+  };
+  // t_j of the nodes that were seen, by number. A component is one of 65536 steps of the box that
+  // they span, some 1e-4 of a spacing, where moments are alike up to `likeness`.
+  struct Moment {
+    std::vector<Run> runs;
+    std::vector<std::array<std::uint16_t, 3>> translations;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Eigen::Vector3d step = Eigen::Vector3d::Zero();
+
+    Eigen::Vector3d Translation(std::size_t row) const;
   };
   // A moment laid on the present: q = rotation p + translation, as well as a rigid motion can, and
   // how much it is like it.
@@ -74,20 +90,19 @@ class TissueMemory final : public NodePriorSource {
 
   static Alignment Align(const Comparison& comparison);
   void JudgeLikeness();
-  Eigen::Vector3d Recall(int node, const DeformableMap& map) const;
-  void ListNodes();
+  static Moment MakeMoment(const std::vector<int>& nodes, const DeformableMap& map);
+  // Calls visit(k, t) for each nodes[k], by number, that the moment knows.
+  template <typename Visit>
+  static void VisitCommon(const Moment& moment, const std::vector<int>& nodes, Visit visit);
   void Thin();
 
   TissueMemoryOptions options_;
-  // Moments kept, and the number of the next one.
-  int kept_ = 0;
+  // Number of the next moment.
   int next_moment_ = 0;
   // Only moments whose number it divides are kept.
   int stride_ = 1;
-  // What each node did, oldest first.
-  std::deque<std::vector<Trace>> traces_;
-  // The nodes of each moment, by moment / stride.
-  std::vector<std::vector<int>> nodes_of_moment_;
+  // By number / stride.
+  std::vector<Moment> moments_;
 
   // Of the present frame: nodes whose prior is settled, and the moments by moment / stride.
   NodeSet anchored_;

@@ -18,8 +18,8 @@ VisiblePoint Look(const DeformableMap& map,
                   int slot) {
   VisiblePoint seen;
   seen.slot = slot;
-  const Binding binding = map.binding(slot);
-  const MapPoint& point = map.point(slot);
+  const PointBinding binding = map.binding(slot);
+  const MapPoint point = map.point(slot);
   seen.in_map = WarpPoint(map.graph(), map.state(), binding, point.position);
   seen.normal_in_map = WarpNormal(map.state(), binding, point.normal);
   seen.in_camera = camera_from_map * seen.in_map;

@@ -2,6 +2,8 @@
 #ifndef CERES_ED_UTIL_CHUNKED_ROWS_H_
 #define CERES_ED_UTIL_CHUNKED_ROWS_H_
 
+#include <ceres_ed/util/memory_use.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -22,6 +24,8 @@ class ChunkedRows {
   const T* operator[](std::size_t row) const {
     return &chunks_[row >> kBits][(row & kMask) * width_];
   }
+
+  std::size_t HeapBytes() const { return HeapBytesOfAll(chunks_); }
 
   // New rows hold T().
   void Resize(std::size_t rows) {

@@ -82,10 +82,10 @@ TEST_F(EdSlamOutputTest, LiveCloudsKeepIdsAndBirthPlaces) {
   const PlyElement& rows = *first.document.Find("vertex");
   for (std::size_t i = 0; i < first.cloud.size(); ++i) {
     const int id = static_cast<int>(rows.Find("id")->values[i]);
-    EXPECT_TRUE(born.emplace(id, first.cloud.points[i]).second) << "id " << id << " twice";
     // Where it was born is where it is, to the digits of a float.
     const Eigen::Vector3d birth(
         rows.Find("bx")->values[i], rows.Find("by")->values[i], rows.Find("bz")->values[i]);
+    EXPECT_TRUE(born.emplace(id, birth).second) << "id " << id << " twice";
     EXPECT_LT((birth - first.cloud.points[i]).norm(), 1e-7);
   }
   const PlyElement& later = *last.document.Find("vertex");

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <test/slam/bumpy_sequence.h>
 
 namespace ceres_ed {
@@ -124,6 +125,43 @@ TEST(Checkpoint, RefusesEveryFlippedByteAndEveryCut) {
     EXPECT_FALSE(CheckpointReader::Open(good.substr(0, i)).ok()) << "cut at " << i;
   }
   EXPECT_THAT(OpenError("{}"), HasSubstr("is no checkpoint"));
+}
+
+TEST(Checkpoint, SaysOfWhatVersionAnOlderOneIs) {
+  // Whatever wrote it: short heads, as version 2 had them.
+  const nlohmann::json old = {{"format", "ceres_ed checkpoint"},
+                              {"version", 2},
+                              {"payload", nlohmann::json::binary({1, 2, 3})}};
+  std::string bytes;
+  nlohmann::json::to_cbor(old, bytes);
+  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 3"));
+}
+
+TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {
+  ChunkedRows<float> rows(3);
+  rows.Resize(700);
+  for (std::size_t r = 0; r < rows.size(); ++r) rows[r][2] = static_cast<float>(r);
+  std::vector<std::array<std::uint16_t, 3>> list = {{1, 2, 3}, {4, 5, 6}};
+  CheckpointWriter writer;
+  writer.Rows("rows", &rows);
+  writer.Rows("list", &list);
+  const std::string bytes = writer.Finish();
+
+  const auto reader = CheckpointReader::Open(bytes);
+  ASSERT_TRUE(reader.ok()) << reader.status().message();
+  ChunkedRows<float> loaded(3);
+  std::vector<std::array<std::uint16_t, 3>> loaded_list;
+  (*reader)->Rows("rows", &loaded);
+  (*reader)->Rows("list", &loaded_list);
+  ASSERT_TRUE((*reader)->status().ok());
+  ASSERT_EQ(loaded.size(), 700u);
+  for (std::size_t r = 0; r < rows.size(); ++r) EXPECT_EQ(loaded[r][2], static_cast<float>(r));
+  EXPECT_EQ(loaded_list, list);
+  // Rows of another width.
+  ChunkedRows<double> wide(11);
+  (*reader)->Rows("rows", &wide);
+  EXPECT_EQ(wide.size(), 0u);
+  EXPECT_THAT((*reader)->status().message(), HasSubstr("expected a multiple of 88"));
 }
 
 // Tracks frames [first, last) of a sheet that heaves.

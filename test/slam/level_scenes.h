@@ -62,8 +62,11 @@ struct LevelScene {
   std::vector<MapObservation> Take(const std::vector<Correspondence>& correspondences) const {
     std::vector<MapObservation> taken;
     for (const Correspondence& c : correspondences) {
-      taken.push_back(
-          {problem.points[c.point], problem.skinning[c.point], c.target, c.normal, c.weight});
+      taken.push_back({problem.points[c.point],
+                       PointBinding(problem.skinning[c.point]),
+                       c.target,
+                       c.normal,
+                       c.weight});
     }
     return taken;
   }

@@ -91,9 +91,9 @@ inline LiveSnapshot Snapshot(const DeformableSlam& slam, int frame) {
   const DeformableMap& map = slam.map();
   for (int slot = 0; slot < map.num_slots(); ++slot) {
     if (!map.alive(slot)) continue;
-    const MapPoint& point = map.point(slot);
-    const Eigen::Vector3d in_map =
-        WarpPoint(map.graph(), map.state(), map.binding(slot), point.position);
+    const MapPoint point = map.point(slot);
+    const PointBinding binding = map.binding(slot);
+    const Eigen::Vector3d in_map = WarpPoint(map.graph(), map.state(), binding, point.position);
     snapshot.points.push_back(slam.unit() * (slam.camera_from_map() * in_map));
     snapshot.ids.push_back(point.id);
     snapshot.birth_frames.push_back(point.birth_frame);
@@ -146,7 +146,7 @@ inline std::vector<double> Bytes(const SlamRun& run) {
     all.insert(all.end(), {static_cast<double>(e.from), static_cast<double>(e.to), e.weight});
   }
   for (int slot = 0; slot < map.num_slots(); ++slot) {
-    const MapPoint& point = map.point(slot);
+    const MapPoint point = map.point(slot);
     all.push_back(point.id);
     if (!map.alive(slot)) continue;
     add(point.position);

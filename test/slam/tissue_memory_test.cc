@@ -135,5 +135,76 @@ TEST(TissueMemory, ForgetsEverySecondMomentAndRecallsStill) {
   }
 }
 
+// Where each node went at its own time, whatever was kept of its neighbours.
+TEST(TissueMemory, TellsNodesApartThatAreSeenInTurn) {
+  DeformableMap map = Row();
+  TissueMemory memory({});
+  for (int frame = 0; frame < 6; ++frame) {
+    SetTo(0.2 * frame, Eigen::Vector3d::Zero(), &map);
+    NodeSet observed;
+    // Not by number.
+    for (int j = kNodes - 1; j >= 40; --j) {
+      if (j % 3 == frame % 3) observed.Add(j);
+    }
+    memory.Keep(observed, map);
+  }
+  // None of those that were kept: the mean.
+  const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
+  for (int j = 40; j < kNodes; ++j) {
+    const Eigen::Vector3d mean = 0.5 * (Breath(j, 0.2 * (j % 3)) + Breath(j, 0.2 * (j % 3 + 3)));
+    EXPECT_LT((recalled[j] - mean).norm(), 3e-5) << j;
+  }
+}
+
+TEST(TissueMemory, AffectsTheHiddenNodesOfMomentsThatShareNodesWithTheView) {
+  DeformableMap map = Row();
+  TissueMemory memory({});
+  const auto keep = [&](int first, int last) {
+    NodeSet observed;
+    for (int j = first; j < last; ++j) observed.Add(j);
+    memory.Keep(observed, map);
+  };
+  keep(35, 45);
+  keep(38, 42);
+  keep(30, 37);
+  // Shares none.
+  keep(50, 55);
+  memory.BeginFrame(First(40), &map);
+  memory.Look(First(40), map);
+  EXPECT_EQ(memory.Affected(), (std::vector<int>{40, 41, 42, 43, 44}));
+}
+
+// Steps are shares of the box that a moment's nodes span.
+TEST(TissueMemory, KeepsTranslationsToAShareOfTheirSpread) {
+  DeformableMap map = Row();
+  TissueMemory memory({});
+  const double spread = 40.0;
+  for (int j = 0; j < kNodes; ++j) {
+    SetTranslation(
+        &map,
+        j,
+        spread * Eigen::Vector3d(std::sin(j), std::cos(j), 0.0) + Eigen::Vector3d(1e4, -1e4, 0.7));
+  }
+  memory.Keep(First(kNodes), map);
+  for (int j = 40; j < kNodes; ++j) SetTranslation(&map, j, Eigen::Vector3d::Zero());
+  const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
+  for (int j = 40; j < kNodes; ++j) {
+    const Eigen::Vector3d was =
+        spread * Eigen::Vector3d(std::sin(j), std::cos(j), 0.0) + Eigen::Vector3d(1e4, -1e4, 0.7);
+    EXPECT_LT((recalled[j] - was).norm(), 2.0 * spread / 65535.0) << j;
+  }
+}
+
+TEST(TissueMemory, HoldsSixBytesANodeOfAMoment) {
+  DeformableMap map = Row();
+  TissueMemoryOptions options;
+  options.max_moments = 1000;
+  TissueMemory memory(options);
+  for (int frame = 0; frame < 500; ++frame) memory.Keep(First(kNodes), map);
+  // And what a moment needs for itself.
+  EXPECT_LT(memory.HeapBytes(), 500u * (6 * kNodes + 400) + 2000);
+  EXPECT_GT(memory.HeapBytes(), 500u * 6 * kNodes);
+}
+
 }  // namespace
 }  // namespace ceres_ed
