@@ -214,6 +214,9 @@ class Levels {
   NodeSet point_relevant_;
   NodeSet moved_;
   PendingNodes pending_;
+  // Of a wave: its nodes, and those that it is sent for. Kept for their marks.
+  NodeSet front_;
+  NodeSet wanted_;
 };
 
 }  // namespace ceres_ed

@@ -122,16 +122,16 @@ void TissueMemory::UpdatePriors(const std::vector<int>& nodes, DeformableMap* ma
   }
 }
 
-std::vector<int> TissueMemory::Affected() const {
-  NodeSet affected;
+const std::vector<int>& TissueMemory::Affected() {
+  affected_.Clear();
   for (std::size_t k = 0; k < alignments_.size(); ++k) {
     if (alignments_[k].common == 0) continue;
     for (const int node : nodes_of_moment_[k]) {
-      if (!anchored_.Has(node)) affected.Add(node);
+      if (!anchored_.Has(node)) affected_.Add(node);
     }
   }
-  affected.Sort();
-  return affected.nodes();
+  affected_.Sort();
+  return affected_.nodes();
 }
 
 void TissueMemory::Keep(const NodeSet& observed, const DeformableMap& map) {

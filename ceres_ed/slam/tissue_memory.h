@@ -46,8 +46,8 @@ class TissueMemory final : public NodePriorSource {
   void UpdatePriors(const std::vector<int>& nodes, DeformableMap* map) override;
 
   // Returns the nodes whose recalled place depends on the last Look(), by number; the others are
-  // recalled as ever.
-  std::vector<int> Affected() const;
+  // recalled as ever. Valid until the next call.
+  const std::vector<int>& Affected();
 
   // Keeps t_j of the nodes that are `observed`.
   void Keep(const NodeSet& observed, const DeformableMap& map);
@@ -91,6 +91,7 @@ class TissueMemory final : public NodePriorSource {
 
   // Of the present frame: nodes whose prior is settled, and the moments by moment / stride.
   NodeSet anchored_;
+  NodeSet affected_;
   std::vector<Alignment> alignments_;
 };
 
