@@ -162,6 +162,7 @@ void ReadNumbers(SlamSettings* settings) {
   options->verify_every = FLAGS_verify_every;
   options->num_threads = FLAGS_threads;
   options->surface.num_threads = FLAGS_threads;
+  options->feature.pixels.num_threads = FLAGS_threads;
   settings->sequence.first = FLAGS_first;
   settings->sequence.last = FLAGS_last;
   settings->sequence.step = FLAGS_step;

@@ -13,8 +13,9 @@
 namespace ceres_ed {
 
 // Columns behind frame and status; scripts rely on the names and, up to energy, on their order.
-// Seconds, metres, counts; t_total is all of a frame but t_load (reading and decoding) and t_write.
-// Not a number, an empty cell: not known of this frame.
+// Seconds, metres, counts; t_total is all of a frame but t_load (reading and decoding, as far as
+// that wasn't done while the frame before was taken in) and t_write. Not a number, an empty cell:
+// not known of this frame.
 inline constexpr std::array<const char*, 30> kFrameColumns = {
     "t_total",         "t_load",
     "t_associate",     "t_camera",

@@ -97,8 +97,7 @@ Outcome SlamSession::Run() {
 Outcome SlamSession::TakeFrame() {
   const int index = next_++;
   const Timer timer;
-  FrameProblem problem = FrameProblem::kNone;
-  const StatusOr<DepthFrame> frame = sequence_.Load(index, &problem);
+  const auto [frame, problem] = reader_.Read(index);
   FrameRecord record;
   record.number = sequence_.frame_number(index);
   record["t_load"] = timer.Seconds();

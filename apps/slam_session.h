@@ -15,6 +15,7 @@
 #include <apps/slam_flags.h>
 #include <apps/slam_frames.h>
 #include <apps/slam_output.h>
+#include <apps/slam_reader.h>
 #include <apps/slam_report.h>
 #include <apps/slam_warnings.h>
 #include <apps/support/program.h>
@@ -33,6 +34,7 @@ class SlamSession {
       : settings_(settings),
         sequence_path_(sequence_path),
         sequence_(sequence),
+        reader_(sequence, settings.options.num_threads),
         slam_(slam),
         clock_(clock) {}
 
@@ -64,6 +66,7 @@ class SlamSession {
   const SlamSettings& settings_;
   const std::string& sequence_path_;
   const DepthSequence& sequence_;
+  FrameReader reader_;
   DeformableSlam* slam_;
   const Timer& clock_;
   WarningLog* warnings_ = nullptr;

@@ -9,8 +9,25 @@
 #include <apps/support/command_line.h>
 #include <glog/logging.h>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace ceres_ed {
 namespace {
+
+// Keeps memory that was freed. Frames and rounds need the same again and again, and glibc would
+// hand it back to the system each time, only to fetch it page by page: dear in a virtual machine.
+// A matter of the process, so programs decide it and the library doesn't.
+void ConfigureMemory() {
+#ifdef __GLIBC__
+  constexpr int kNever = 1 << 30;
+  constexpr int kHeapStep = 16 << 20;
+  mallopt(M_TRIM_THRESHOLD, kNever);
+  mallopt(M_MMAP_THRESHOLD, kNever);
+  mallopt(M_TOP_PAD, kHeapStep);
+#endif
+}
 
 // A signal handler can reach nothing else.
 std::atomic<bool> stop_requested{false};
@@ -72,6 +89,7 @@ int RunProgram(const ProgramInfo& info,
                int argc,
                char** argv,
                const std::function<Outcome(const std::vector<std::string>& arguments)>& body) {
+  ConfigureMemory();
   ConfigureLogging(argv[0]);
   Outcome outcome = ParseAndRun(info, argc, argv, body);
   if (std::fflush(stdout) != 0 && outcome.code == ExitCode::kDone) {

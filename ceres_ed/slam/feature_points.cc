@@ -24,6 +24,19 @@ bool OnSurface(const ObservedSurface& surface,
   return true;
 }
 
+// The pixels that have a patch.
+MaskImage Measured(const ObservedSurface& surface) {
+  MaskImage measured(surface.camera().width, surface.camera().height, 0);
+  for (int v = 0; v < measured.height(); ++v) {
+    for (int i = 0; i < surface.width(); ++i) {
+      if (!surface.patch(i, v / surface.cell()).valid()) continue;
+      const int end = std::min((i + 1) * surface.cell(), measured.width());
+      for (int u = i * surface.cell(); u < end; ++u) measured(u, v) = 1;
+    }
+  }
+  return measured;
+}
+
 }  // namespace
 
 void FeaturePoints::Track(const ColorImage& image,
@@ -85,12 +98,7 @@ double FeaturePoints::DropOutliers(const DeformableMap& map, double least_deviat
 
 void FeaturePoints::Replenish(const ObservedSurface& surface, const DeformableMap& map) {
   if (size() >= kReplenishBelow * options_.count) return;
-  MaskImage allowed(surface.camera().width, surface.camera().height, 0);
-  for (int v = 0; v < allowed.height(); ++v) {
-    for (int u = 0; u < allowed.width(); ++u) {
-      allowed(u, v) = surface.Find({static_cast<double>(u), static_cast<double>(v)}) != nullptr;
-    }
-  }
+  const MaskImage allowed = Measured(surface);
   std::vector<Eigen::Vector2d> taken;
   for (const Feature& f : features_) taken.push_back(f.pixel);
   const CameraPose& camera_from_map = map.state().camera_from_map;

@@ -78,18 +78,18 @@ LevelReport Levels::SendWaves(int most,
       std::nth_element(seeds.begin(), seeds.begin() + options_.lazy.max_seeds, seeds.end(), first);
       seeds.resize(options_.lazy.max_seeds);
     }
-    NodeSet front;
-    for (const int node : seeds) front.Add(node);
-    AddRings(map->graph(), options_.lazy.reach, hidden, &front);
+    front_.Clear();
+    for (const int node : seeds) front_.Add(node);
+    AddRings(map->graph(), options_.lazy.reach, hidden, &front_);
     // A wave over most of them would go on to the rest: one solve takes all.
     const int num_nodes = map->graph().num_nodes();
-    if (2 * front.size() > num_nodes - point_relevant_.size()) {
+    if (2 * front_.size() > num_nodes - point_relevant_.size()) {
       for (int node = 0; node < num_nodes; ++node) {
-        if (hidden(node)) front.Add(node);
+        if (hidden(node)) front_.Add(node);
       }
     }
-    front.Sort();
-    const LevelReport report = SolveHidden(front.nodes(), priors, map);
+    front_.Sort();
+    const LevelReport report = SolveHidden(front_.nodes(), priors, map);
     Add(report, &all);
     if (report.status == SolveStatus::kFailed) break;
   }
@@ -118,10 +118,10 @@ LevelReport Levels::CatchUp(const std::vector<int>& nodes,
                             NodePriorSource* priors,
                             DeformableMap* map) {
   if (!IsLazy()) return LevelReport();
-  NodeSet wanted;
-  for (const int node : nodes) wanted.Add(node);
+  wanted_.Clear();
+  for (const int node : nodes) wanted_.Add(node);
   return SendWaves(
-      kMostWaves, [&wanted](int node) { return wanted.Has(node); }, priors, map);
+      kMostWaves, [this](int node) { return wanted_.Has(node); }, priors, map);
 }
 
 void Levels::CatchUpCopy(NodePriorSource* priors, DeformableMap* copy) {

@@ -161,7 +161,7 @@ class Levels {
   // Of what it keeps of every node; solvers hold what the last windows took.
   std::size_t HeapBytes() const {
     return windows_.HeapBytes() + pending_.HeapBytes() + point_relevant_.HeapBytes() +
-           moved_.HeapBytes();
+           moved_.HeapBytes() + front_.HeapBytes() + wanted_.HeapBytes();
   }
 
   // Drops what the solvers keep from one frame for the next. It saves time, but the order in which
@@ -221,6 +221,9 @@ class Levels {
   NodeSet point_relevant_;
   NodeSet moved_;
   PendingNodes pending_;
+  // Of a wave: its nodes, and those that it is sent for. Kept for their marks.
+  NodeSet front_;
+  NodeSet wanted_;
 };
 
 }  // namespace ceres_ed

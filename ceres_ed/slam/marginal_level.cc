@@ -42,16 +42,16 @@ void MarginalLevel::Choose(const DeformationGraph& graph, const NodeSet& point_r
       graph, options_.rings, [](int) { return true; }, &is_kept_);
   is_kept_.Sort();
   kept_ = is_kept_.nodes();
-  NodeSet both;
-  for (const int node : kept_) both.Add(node);
+  reached_.Clear();
+  for (const int node : kept_) reached_.Add(node);
   if (options_.reach < 0) {
-    for (int node = 0; node < graph.num_nodes(); ++node) both.Add(node);
+    for (int node = 0; node < graph.num_nodes(); ++node) reached_.Add(node);
   } else {
     AddRings(
-        graph, options_.reach, [](int) { return true; }, &both);
+        graph, options_.reach, [](int) { return true; }, &reached_);
   }
   is_eliminated_.Clear();
-  for (const int node : both.nodes()) {
+  for (const int node : reached_.nodes()) {
     if (!is_kept_.Has(node)) is_eliminated_.Add(node);
   }
   is_eliminated_.Sort();

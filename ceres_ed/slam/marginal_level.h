@@ -60,6 +60,8 @@ class MarginalLevel {
   std::vector<int> kept_;
   NodeSet is_eliminated_;
   NodeSet is_kept_;
+  // Those two together.
+  NodeSet reached_;
   int num_choices_ = 0;
 };
 

@@ -1,6 +1,7 @@
 #include "ceres_ed/slam/pixel_tracker.h"
 
 #include <ceres_ed/slam/checkpoint.h>
+#include <ceres_ed/util/parallel.h>
 
 #include <cmath>
 #include <cstdint>
@@ -59,23 +60,31 @@ struct PixelTracker::Impl {
         gray, now, cv::Size(options.window, options.window), options.pyramid_levels);
   }
 
+  // Corners know nothing of one another, so that parts of them go the same ways. `end` and `found`
+  // have the size of `start`.
   void Flow(const Pyramid& from,
             const Pyramid& to,
             const std::vector<cv::Point2f>& start,
             std::vector<cv::Point2f>* end,
             std::vector<unsigned char>* found) const {
     const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.01);
-    std::vector<float> errors;
-    cv::calcOpticalFlowPyrLK(from,
-                             to,
-                             start,
-                             *end,
-                             *found,
-                             errors,
-                             cv::Size(options.window, options.window),
-                             options.pyramid_levels,
-                             stop,
-                             cv::OPTFLOW_USE_INITIAL_FLOW);
+    const auto count = static_cast<int>(start.size());
+    ParallelFor(options.num_threads, count, [&](int first, int last) {
+      const cv::Range part(first, last);
+      // Views of the vectors' own memory: their sizes are right, so that nothing is allocated.
+      cv::Mat part_end = cv::Mat(*end).rowRange(part);
+      cv::Mat part_found = cv::Mat(*found).rowRange(part);
+      cv::calcOpticalFlowPyrLK(from,
+                               to,
+                               cv::Mat(start).rowRange(part),
+                               part_end,
+                               part_found,
+                               cv::noArray(),
+                               cv::Size(options.window, options.window),
+                               options.pyramid_levels,
+                               stop,
+                               cv::OPTFLOW_USE_INITIAL_FLOW);
+    });
   }
 };
 
@@ -106,7 +115,7 @@ std::vector<TrackedPixel> PixelTracker::Track(const std::vector<Eigen::Vector2d>
   const std::vector<cv::Point2f> start = ToCv(pixels);
   std::vector<cv::Point2f> end = ToCv(predicted);
   std::vector<cv::Point2f> back;
-  std::vector<unsigned char> found, found_back;
+  std::vector<unsigned char> found(start.size()), found_back(start.size());
   impl_->Flow(impl_->before, impl_->now, start, &end, &found);
   // The way back is guessed by the same prediction, so that both ways have equally far to search.
   back.reserve(end.size());

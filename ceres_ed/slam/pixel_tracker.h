@@ -25,6 +25,8 @@ struct PixelTrackerOptions {
   double min_distance = 12.0;
   // Strength of the weakest corner relative to the strongest, in (0, 1).
   double quality = 0.005;
+  // Corners are followed on so many threads, >= 1; the result doesn't depend on it.
+  int num_threads = 1;
 };
 
 // Where a corner went; `found` is false where it was lost.

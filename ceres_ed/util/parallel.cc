@@ -1,9 +1,9 @@
 #include "ceres_ed/util/parallel.h"
 
+#include <ceres_ed/util/thread_team.h>
+
 #include <algorithm>
 #include <cstdint>
-#include <thread>
-#include <vector>
 
 namespace ceres_ed {
 
@@ -17,14 +17,7 @@ void ParallelFor(int num_threads, int count, const std::function<void(int begin,
   const auto range_begin = [&](int i) {
     return static_cast<int>(static_cast<std::int64_t>(count) * i / num_ranges);
   };
-  std::vector<std::thread> threads;
-  threads.reserve(num_ranges - 1);
-  for (int i = 1; i < num_ranges; ++i) {
-    threads.emplace_back(
-        [&body, begin = range_begin(i), end = range_begin(i + 1)] { body(begin, end); });
-  }
-  body(0, range_begin(1));
-  for (std::thread& thread : threads) thread.join();
+  RunTasks(num_ranges, [&](int i) { body(range_begin(i), range_begin(i + 1)); });
 }
 
 }  // namespace ceres_ed

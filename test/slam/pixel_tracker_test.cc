@@ -30,8 +30,11 @@ struct Followed {
 
 Followed Follow(const ColorImage& first,
                 const ColorImage& second,
-                const Eigen::Vector2d& guess = Eigen::Vector2d::Zero()) {
-  PixelTracker tracker(DenseCorners());
+                const Eigen::Vector2d& guess = Eigen::Vector2d::Zero(),
+                int num_threads = 1) {
+  PixelTrackerOptions options = DenseCorners();
+  options.num_threads = num_threads;
+  PixelTracker tracker(options);
   tracker.SetImage(first);
   // Corners keep 12 pixels from the rim, so that their windows move inside of the picture.
   MaskImage inside(first.width(), first.height(), 0);
@@ -188,16 +191,18 @@ TEST(PixelTracker, DetectsCornersApartFromEachOtherWhereItMay) {
   EXPECT_TRUE(tracker.Detect(MaskImage(160, 120, 0), {}, 10).empty());
 }
 
-TEST(PixelTracker, GivesTheSameResultTwice) {
+TEST(PixelTracker, GivesTheSameBitsAgainAndOnAnyNumberOfThreads) {
   const ColorImage first = TexturedPicture({0, 0}, LampLight);
   const ColorImage second = TexturedPicture({1.3, -2.2}, LampLight);
   const Followed a = Follow(first, second);
-  const Followed b = Follow(first, second);
-  ASSERT_EQ(a.before.size(), b.before.size());
-  for (std::size_t i = 0; i < a.before.size(); ++i) {
-    EXPECT_EQ(a.before[i], b.before[i]);
-    EXPECT_EQ(a.after[i].pixel, b.after[i].pixel);
-    EXPECT_EQ(a.after[i].found, b.after[i].found);
+  for (const int threads : {1, 2, 5}) {
+    const Followed b = Follow(first, second, Eigen::Vector2d::Zero(), threads);
+    ASSERT_EQ(a.before.size(), b.before.size());
+    for (std::size_t i = 0; i < a.before.size(); ++i) {
+      EXPECT_EQ(a.before[i], b.before[i]);
+      EXPECT_EQ(a.after[i].pixel, b.after[i].pixel);
+      EXPECT_EQ(a.after[i].found, b.after[i].found);
+    }
   }
 }
 

@@ -36,5 +36,15 @@ TEST(ParallelFor, CallsNothingForAnEmptyRange) {
   EXPECT_EQ(calls, 0);
 }
 
+TEST(ParallelFor, HasTheSameRangesWithinABody) {
+  const auto ends_of = [] {
+    std::vector<int> ends(10, 0);
+    ParallelFor(3, 10, [&](int begin, int end) { ends[begin] = end; });
+    return ends;
+  };
+  const std::vector<int> outside = ends_of();
+  ParallelFor(2, 2, [&](int, int) { EXPECT_EQ(ends_of(), outside); });
+}
+
 }  // namespace
 }  // namespace ceres_ed
