@@ -88,7 +88,7 @@ struct Best {
   const Eigen::Vector3d position =
       barycentric[0] * item.a + barycentric[1] * item.b + barycentric[2] * item.c;
   const double distance = (query - position).squaredNorm();
-  if (distance > best->squared_distance) return;
+  if (!(distance <= best->squared_distance)) return;
   if (best->item >= 0 && distance == best->squared_distance &&
       item.index > items[best->item].index) {
     return;
@@ -242,6 +242,10 @@ struct SurfaceIndex::Impl {
     sorted.reserve(items.size());
     for (const int i : tree->order()) sorted.push_back(items[i]);
     items.swap(sorted);
+    item_of_triangle.assign(cloud.triangles.size(), -1);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      item_of_triangle[items[i].index] = static_cast<int>(i);
+    }
     std::vector<BoxTree::Box> boxes(tree->num_leaves());
     leaves.resize(tree->num_leaves());
     double largest = 0.0;
@@ -276,8 +280,9 @@ struct SurfaceIndex::Impl {
     return widest;
   }
 
-  Best Find(const Eigen::Vector3d& query, double squared_bound) const {
+  Best Find(const Eigen::Vector3d& query, double squared_bound, int hint) const {
     Best best{squared_bound};
+    if (hint >= 0) TryTriangle(items.data(), item_of_triangle[hint], query, &best);
     TriangleVisitor visitor{leaves.data(), items.data(), room, query, &best};
     Search(*tree, &visitor);
     return best;
@@ -307,6 +312,8 @@ struct SurfaceIndex::Impl {
 
   const PointCloud& cloud;
   std::vector<TriangleItem> items;
+  // -1 for triangles of no item.
+  std::vector<int> item_of_triangle;
   std::optional<BoxTree> tree;
   // Beside `items`, four a leaf.
   std::vector<TriangleLeaf> leaves;
@@ -330,10 +337,13 @@ SurfaceIndex::~SurfaceIndex() = default;
 SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
 SurfaceIndex& SurfaceIndex::operator=(SurfaceIndex&&) noexcept = default;
 
-SurfaceHit SurfaceIndex::Closest(const Eigen::Vector3d& query, double max_distance) const {
+SurfaceHit SurfaceIndex::Closest(const Eigen::Vector3d& query,
+                                 double max_distance,
+                                 int hint) const {
   if (!(max_distance >= 0.0) || !query.allFinite()) return {};
-  if (!impl_->point_tree) return impl_->HitOf(impl_->Find(query, max_distance * max_distance));
-  const Neighbor nearest = impl_->point_tree->NearestWithin(query, max_distance);
+  if (!impl_->point_tree)
+    return impl_->HitOf(impl_->Find(query, max_distance * max_distance, hint));
+  const Neighbor nearest = impl_->point_tree->NearestWithin(query, max_distance, hint);
   SurfaceHit hit;
   if (!nearest.found()) return hit;
   hit.position = impl_->cloud.points[nearest.index];

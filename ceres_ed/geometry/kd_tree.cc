@@ -32,7 +32,7 @@ class NearestSet {
   explicit NearestSet(double squared_bound) : bound_(squared_bound) {}
   double bound() const { return bound_; }
   void Add(double squared_distance, int index) {
-    if (squared_distance > bound_) return;
+    if (!(squared_distance <= bound_)) return;
     if (best_.found() && !Before(squared_distance, index, best_)) return;
     best_ = {index, squared_distance};
     bound_ = squared_distance;
@@ -181,9 +181,13 @@ Neighbor KdTree::Nearest(const Eigen::Vector3d& query) const {
   return NearestWithin(query, std::numeric_limits<double>::infinity());
 }
 
-Neighbor KdTree::NearestWithin(const Eigen::Vector3d& query, double max_distance) const {
+Neighbor KdTree::NearestWithin(const Eigen::Vector3d& query, double max_distance, int hint) const {
   if (!(max_distance >= 0.0) || !query.allFinite()) return {};
   NearestSet result(max_distance * max_distance);
+  if (hint >= 0) {
+    const Eigen::Vector3d gap = query - impl_->points[hint];
+    result.Add(gap.x() * gap.x() + gap.y() * gap.y() + gap.z() * gap.z(), hint);
+  }
   Search(impl_->tree, impl_->leaves.data(), query, &result);
   return result.best();
 }

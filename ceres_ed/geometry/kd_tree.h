@@ -36,8 +36,10 @@ class KdTree {
   // The point nearest to `query`; none when the tree is empty.
   Neighbor Nearest(const Eigen::Vector3d& query) const;
 
-  // The nearest point that is at most `max_distance` away; none when there is no such point.
-  Neighbor NearestWithin(const Eigen::Vector3d& query, double max_distance) const;
+  // The nearest point that is at most `max_distance` away; none when there is no such point. `hint`
+  // is a point that is thought to be near, or -1: the nearer it is the faster is the search, and
+  // what is found doesn't depend on it.
+  Neighbor NearestWithin(const Eigen::Vector3d& query, double max_distance, int hint = -1) const;
 
   // Writes the nearest min(k, number of points) neighbours to out[0..] by distance, then by index,
   // and returns how many. `out` has room for k.

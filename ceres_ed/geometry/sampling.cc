@@ -1,6 +1,7 @@
 #include "ceres_ed/geometry/sampling.h"
 
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/geometry/distance_queue.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,9 +96,7 @@ class SampleDistances {
   void Add(int point, double limit) {
     Offer(point, 0.0);
     while (!queue_.empty()) {
-      std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
-      const auto [distance, p] = queue_.back();
-      queue_.pop_back();
+      const auto [distance, p] = queue_.Pop();
       if (distance > distances_[p]) continue;
       for (const SurfaceLink& link : topology_.Paths(p)) {
         if (distance + link.length < limit) Offer(link.to, distance + link.length);
@@ -109,13 +108,12 @@ class SampleDistances {
   void Offer(int point, double distance) {
     if (distance >= distances_[point]) return;
     distances_[point] = distance;
-    queue_.emplace_back(distance, point);
-    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+    queue_.Push({distance, point});
   }
 
   const SurfaceTopology& topology_;
   std::vector<double> distances_;
-  std::vector<std::pair<double, int>> queue_;
+  DistanceQueue<std::pair<double, int>> queue_;
 };
 
 bool IsEligible(const SurfaceTopology& topology, int point, int min_component_points) {

@@ -1,5 +1,7 @@
 #include "ceres_ed/geometry/surface_distance.h"
 
+#include <ceres_ed/geometry/distance_queue.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -14,13 +16,11 @@ struct QueueEntry {
   double distance;
   int seed;
   int point;
-};
 
-// Puts the nearest entry on top; the seed breaks ties in the order of the labels of a point.
-struct Farther {
-  bool operator()(const QueueEntry& a, const QueueEntry& b) const {
-    if (a.distance != b.distance) return a.distance > b.distance;
-    return a.seed > b.seed;
+  // The seed breaks ties in the order of the labels of a point.
+  bool operator<(const QueueEntry& other) const {
+    if (distance != other.distance) return distance < other.distance;
+    return seed < other.seed;
   }
 };
 
@@ -55,15 +55,12 @@ class MultiSeedSearch {
     }
     seeds[place] = seed;
     distances[place] = distance;
-    queue_.push_back({distance, seed, point});
-    std::push_heap(queue_.begin(), queue_.end(), Farther());
+    queue_.Push({distance, seed, point});
   }
 
   void Run() {
     while (!queue_.empty()) {
-      std::pop_heap(queue_.begin(), queue_.end(), Farther());
-      const QueueEntry entry = queue_.back();
-      queue_.pop_back();
+      const QueueEntry entry = queue_.Pop();
       int& settled = num_settled_[entry.point];
       const std::size_t label = static_cast<std::size_t>(entry.point) * k_ + settled;
       if (settled == k_ || result_.seeds[label] != entry.seed ||
@@ -93,7 +90,7 @@ class MultiSeedSearch {
   const int k_;
   NearestSeeds result_;
   std::vector<int> num_settled_;
-  std::vector<QueueEntry> queue_;
+  DistanceQueue<QueueEntry> queue_;
 };
 
 }  // namespace
@@ -130,18 +127,16 @@ std::vector<double> AlongSurfaceDistances(const SurfaceTopology& topology,
   if (!(max_distance >= 0.0)) return distances;
   const int start = topology.representative[seed_point];
   distances[start] = 0.0;
-  std::vector<QueueEntry> queue = {{0.0, 0, start}};
+  DistanceQueue<QueueEntry> queue;
+  queue.Push({0.0, 0, start});
   while (!queue.empty()) {
-    std::pop_heap(queue.begin(), queue.end(), Farther());
-    const QueueEntry entry = queue.back();
-    queue.pop_back();
+    const QueueEntry entry = queue.Pop();
     if (entry.distance > distances[entry.point]) continue;
     for (const SurfaceLink& link : topology.Paths(entry.point)) {
       const double distance = entry.distance + link.length;
       if (distance > max_distance || distance >= distances[link.to]) continue;
       distances[link.to] = distance;
-      queue.push_back({distance, 0, link.to});
-      std::push_heap(queue.begin(), queue.end(), Farther());
+      queue.Push({distance, 0, link.to});
     }
   }
   for (int p = 0; p < topology.num_points(); ++p) {

@@ -62,28 +62,21 @@ double DistanceFromDisc(const Eigen::Vector3d& gap, const Eigen::Vector3d& norma
   return std::hypot(across, std::max(0.0, along - radius));
 }
 
-// No farther than to a point that is known, with room for rounding; NaN knows none.
-double SearchRadius(double max_distance, double known_distance) {
-  constexpr double kRoom = 1.0 + 1e-9;
-  return known_distance * kRoom < max_distance ? known_distance * kRoom : max_distance;
-}
-
 void MatchForward(const MovedSource& source,
                   const Surface& target,
                   const MatchingOptions& options,
                   MatchMemory* memory,
                   Candidate* candidates) {
   const std::vector<int>& samples = *source.samples;
-  memory->on_target.resize(samples.size(),
-                           Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  memory->on_target.resize(samples.size(), -1);
   const NormalTest normals(*source.rest, target, options);
+  const SurfaceIndex& index = target.index();
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const Eigen::Vector3d& point = (*source.points)[i];
-      const SurfaceHit hit = target.index().Closest(
-          point, SearchRadius(options.max_distance, (point - memory->on_target[i]).norm()));
+      const SurfaceHit hit = index.Closest(point, options.max_distance, memory->on_target[i]);
       if (!hit.found()) continue;
-      memory->on_target[i] = hit.position;
+      memory->on_target[i] = hit.place();
       Candidate& candidate = candidates[i];
       const Eigen::Vector3d& normal = (*source.normals)[i];
       const Eigen::Vector3d target_normal = target.NormalAt(hit);
@@ -109,7 +102,12 @@ void MatchBackward(const MovedSource& source,
   memory->in_source.resize(target_samples.size(), -1);
   if (samples.empty() || target_samples.empty()) return;
   const NormalTest normals(*source.rest, target, options);
-  const KdTree tree(*source.points);
+  if (memory->source_tree != nullptr) {
+    memory->source_tree->Update();
+  } else {
+    memory->source_tree = std::make_unique<KdTree>(*source.points);
+  }
+  const KdTree& tree = *memory->source_tree;
   // Samples stand for the points between them, too.
   const double spread = std::sqrt(static_cast<double>(source.rest->cloud().size()) /
                                   static_cast<double>(samples.size()));
@@ -119,11 +117,8 @@ void MatchBackward(const MovedSource& source,
       const int point = target_samples[i];
       const Eigen::Vector3d& position = target.cloud().points[point];
       const Eigen::Vector3d& target_normal = target.cloud().normals[point];
-      const int last = memory->in_source[i];
-      const double known = last >= 0 ? ((*source.points)[last] - position).norm()
-                                     : std::numeric_limits<double>::infinity();
       const Neighbor nearest =
-          tree.NearestWithin(position, SearchRadius(options.max_distance, known));
+          tree.NearestWithin(position, options.max_distance, memory->in_source[i]);
       if (!nearest.found()) continue;
       memory->in_source[i] = nearest.index;
       const int sample = samples[nearest.index];

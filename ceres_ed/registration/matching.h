@@ -3,9 +3,11 @@
 #define CERES_ED_REGISTRATION_MATCHING_H_
 
 #include <ceres_ed/energy/energy.h>
+#include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/registration/surface.h>
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -43,13 +45,15 @@ struct MovedSource {
   const std::vector<Eigen::Vector3d>* normals = nullptr;
 };
 
-// Where a matching found its closest points. The next one of the same samples starts from there,
-// which makes it faster and changes nothing.
+// Where a matching found its closest points. The next one of the same samples, in the same vectors,
+// starts from there, which makes it faster and changes nothing.
 struct MatchMemory {
-  // Of the samples of the source, on the target; NaN where there is none.
-  std::vector<Eigen::Vector3d> on_target;
+  // Of the samples of the source, on the target (SurfaceHit::place); -1 where there is none.
+  std::vector<int> on_target;
   // Of the samples of the target, among the samples of the source; -1 where there is none.
   std::vector<int> in_source;
+  // Of the samples of the source.
+  std::unique_ptr<KdTree> source_tree;
 };
 
 // What a matching found.
