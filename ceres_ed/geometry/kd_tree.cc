@@ -177,6 +177,8 @@ KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 
 void KdTree::Update() { impl_->Fit(); }
 
+const std::vector<int>& KdTree::order() const { return impl_->tree.order(); }
+
 Neighbor KdTree::Nearest(const Eigen::Vector3d& query) const {
   return NearestWithin(query, std::numeric_limits<double>::infinity());
 }

@@ -33,6 +33,10 @@ class KdTree {
   // neighbours stay neighbours. No search may run meanwhile.
   void Update();
 
+  // The points as they lie in the tree: near in it is near in space. Searches in this order find
+  // in the cache what the one before has read.
+  const std::vector<int>& order() const;
+
   // The point nearest to `query`; none when the tree is empty.
   Neighbor Nearest(const Eigen::Vector3d& query) const;
 

@@ -71,8 +71,10 @@ void MatchForward(const MovedSource& source,
   memory->on_target.resize(samples.size(), -1);
   const NormalTest normals(*source.rest, target, options);
   const SurfaceIndex& index = target.index();
+  const std::vector<int>& order = memory->source_tree->order();
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
+    for (int place = begin; place < end; ++place) {
+      const int i = order[place];
       const Eigen::Vector3d& point = (*source.points)[i];
       const SurfaceHit hit = index.Closest(point, options.max_distance, memory->on_target[i]);
       if (!hit.found()) continue;
@@ -102,18 +104,14 @@ void MatchBackward(const MovedSource& source,
   memory->in_source.resize(target_samples.size(), -1);
   if (samples.empty() || target_samples.empty()) return;
   const NormalTest normals(*source.rest, target, options);
-  if (memory->source_tree != nullptr) {
-    memory->source_tree->Update();
-  } else {
-    memory->source_tree = std::make_unique<KdTree>(*source.points);
-  }
   const KdTree& tree = *memory->source_tree;
   // Samples stand for the points between them, too.
   const double spread = std::sqrt(static_cast<double>(source.rest->cloud().size()) /
                                   static_cast<double>(samples.size()));
   const int count = static_cast<int>(target_samples.size());
   ParallelFor(options.num_threads, count, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
+    for (int place = begin; place < end; ++place) {
+      const int i = memory->target_order[place];
       const int point = target_samples[i];
       const Eigen::Vector3d& position = target.cloud().points[point];
       const Eigen::Vector3d& target_normal = target.cloud().normals[point];
@@ -136,6 +134,22 @@ void MatchBackward(const MovedSource& source,
       candidate.normals_agree = normals.Agree(normal, target_normal);
     }
   });
+}
+
+// Brings the trees and orders up to date.
+void Prepare(const MovedSource& source,
+             const Surface& target,
+             const std::vector<int>& target_samples,
+             MatchMemory* memory) {
+  if (memory->source_tree != nullptr) {
+    memory->source_tree->Update();
+    return;
+  }
+  memory->source_tree = std::make_unique<KdTree>(*source.points);
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(target_samples.size());
+  for (const int point : target_samples) positions.push_back(target.cloud().points[point]);
+  memory->target_order = KdTree(positions).order();
 }
 
 double MedianDistance(const std::vector<Candidate>& candidates) {
@@ -162,6 +176,7 @@ std::vector<Candidate> FindCandidates(const MovedSource& source,
   MatchMemory none;
   if (memory == nullptr) memory = &none;
   Candidate* backward = candidates.data() + source.samples->size();
+  Prepare(source, target, target_samples, memory);
   MatchForward(source, target, options, memory, candidates.data());
   MatchBackward(source, target, target_samples, options, memory, backward);
   return candidates;

@@ -54,6 +54,8 @@ struct MatchMemory {
   std::vector<int> in_source;
   // Of the samples of the source.
   std::unique_ptr<KdTree> source_tree;
+  // The samples of the target, such that neighbours are near each other.
+  std::vector<int> target_order;
 };
 
 // What a matching found.
