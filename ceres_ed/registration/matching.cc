@@ -141,11 +141,12 @@ void Prepare(const MovedSource& source,
              const Surface& target,
              const std::vector<int>& target_samples,
              MatchMemory* memory) {
-  if (memory->source_tree != nullptr) {
+  if (memory->source_tree != nullptr && memory->source_points == source.points) {
     memory->source_tree->Update();
     return;
   }
   memory->source_tree = std::make_unique<KdTree>(*source.points);
+  memory->source_points = source.points;
   std::vector<Eigen::Vector3d> positions;
   positions.reserve(target_samples.size());
   for (const int point : target_samples) positions.push_back(target.cloud().points[point]);

@@ -45,15 +45,16 @@ struct MovedSource {
   const std::vector<Eigen::Vector3d>* normals = nullptr;
 };
 
-// Where a matching found its closest points. The next one of the same samples, in the same vectors,
-// starts from there, which makes it faster and changes nothing.
+// Where a matching found its closest points. The next one of the same samples starts from there,
+// which makes it faster and changes nothing.
 struct MatchMemory {
   // Of the samples of the source, on the target (SurfaceHit::place); -1 where there is none.
   std::vector<int> on_target;
   // Of the samples of the target, among the samples of the source; -1 where there is none.
   std::vector<int> in_source;
-  // Of the samples of the source.
+  // Of the samples of the source, and the vector that it refers to: another one gets another tree.
   std::unique_ptr<KdTree> source_tree;
+  const std::vector<Eigen::Vector3d>* source_points = nullptr;
   // The samples of the target, such that neighbours are near each other.
   std::vector<int> target_order;
 };
