@@ -11,6 +11,8 @@
 
 namespace ceres_ed {
 
+struct BoxTreeItem;
+
 // Items (points, triangles) in leaves of at most `leaf_size`, under nodes of at most four boxes. A
 // box need only be no smaller than what is in it, so that a tree may stay while its items move.
 class BoxTree {
@@ -57,7 +59,7 @@ class BoxTree {
     int num_children = 0;
   };
 
-  int Divide(int first_leaf, int last_leaf, struct BoxTreeItem* items);
+  int Divide(int first_leaf, int last_leaf, BoxTreeItem* items);
   void SetBox(Node* node, int place, const Box& box);
   Box FitNode(int node, const std::vector<Box>& boxes);
 
