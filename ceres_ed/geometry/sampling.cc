@@ -1,7 +1,6 @@
 #include "ceres_ed/geometry/sampling.h"
 
 #include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/geometry/distance_queue.h>
 
 #include <algorithm>
 #include <cmath>
@@ -96,7 +95,9 @@ class SampleDistances {
   void Add(int point, double limit) {
     Offer(point, 0.0);
     while (!queue_.empty()) {
-      const auto [distance, p] = queue_.Pop();
+      std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
+      const auto [distance, p] = queue_.back();
+      queue_.pop_back();
       if (distance > distances_[p]) continue;
       for (const SurfaceLink& link : topology_.Paths(p)) {
         if (distance + link.length < limit) Offer(link.to, distance + link.length);
@@ -108,12 +109,13 @@ class SampleDistances {
   void Offer(int point, double distance) {
     if (distance >= distances_[point]) return;
     distances_[point] = distance;
-    queue_.Push({distance, point});
+    queue_.emplace_back(distance, point);
+    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
   }
 
   const SurfaceTopology& topology_;
   std::vector<double> distances_;
-  DistanceQueue<std::pair<double, int>> queue_;
+  std::vector<std::pair<double, int>> queue_;
 };
 
 bool IsEligible(const SurfaceTopology& topology, int point, int min_component_points) {

@@ -1,7 +1,5 @@
 #include "ceres_ed/geometry/surface_distance.h"
 
-#include <ceres_ed/geometry/distance_queue.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -16,11 +14,13 @@ struct QueueEntry {
   double distance;
   int seed;
   int point;
+};
 
-  // The seed breaks ties in the order of the labels of a point.
-  bool operator<(const QueueEntry& other) const {
-    if (distance != other.distance) return distance < other.distance;
-    return seed < other.seed;
+// Puts the nearest entry on top; the seed breaks ties in the order of the labels of a point.
+struct Farther {
+  bool operator()(const QueueEntry& a, const QueueEntry& b) const {
+    if (a.distance != b.distance) return a.distance > b.distance;
+    return a.seed > b.seed;
   }
 };
 
@@ -55,12 +55,15 @@ class MultiSeedSearch {
     }
     seeds[place] = seed;
     distances[place] = distance;
-    queue_.Push({distance, seed, point});
+    queue_.push_back({distance, seed, point});
+    std::push_heap(queue_.begin(), queue_.end(), Farther());
   }
 
   void Run() {
     while (!queue_.empty()) {
-      const QueueEntry entry = queue_.Pop();
+      std::pop_heap(queue_.begin(), queue_.end(), Farther());
+      const QueueEntry entry = queue_.back();
+      queue_.pop_back();
       int& settled = num_settled_[entry.point];
       const std::size_t label = static_cast<std::size_t>(entry.point) * k_ + settled;
       if (settled == k_ || result_.seeds[label] != entry.seed ||
@@ -90,7 +93,7 @@ class MultiSeedSearch {
   const int k_;
   NearestSeeds result_;
   std::vector<int> num_settled_;
-  DistanceQueue<QueueEntry> queue_;
+  std::vector<QueueEntry> queue_;
 };
 
 }  // namespace
@@ -127,16 +130,18 @@ std::vector<double> AlongSurfaceDistances(const SurfaceTopology& topology,
   if (!(max_distance >= 0.0)) return distances;
   const int start = topology.representative[seed_point];
   distances[start] = 0.0;
-  DistanceQueue<QueueEntry> queue;
-  queue.Push({0.0, 0, start});
+  std::vector<QueueEntry> queue = {{0.0, 0, start}};
   while (!queue.empty()) {
-    const QueueEntry entry = queue.Pop();
+    std::pop_heap(queue.begin(), queue.end(), Farther());
+    const QueueEntry entry = queue.back();
+    queue.pop_back();
     if (entry.distance > distances[entry.point]) continue;
     for (const SurfaceLink& link : topology.Paths(entry.point)) {
       const double distance = entry.distance + link.length;
       if (distance > max_distance || distance >= distances[link.to]) continue;
       distances[link.to] = distance;
-      queue.Push({distance, 0, link.to});
+      queue.push_back({distance, 0, link.to});
+      std::push_heap(queue.begin(), queue.end(), Farther());
     }
   }
   for (int p = 0; p < topology.num_points(); ++p) {
