@@ -1,6 +1,8 @@
 #include "ceres_ed/geometry/closest_point.h"
 
+#include <ceres_ed/geometry/box_tree.h>
 #include <ceres_ed/geometry/kd_tree.h>
+#include <ceres_ed/util/for_each_machine.h>
 
 #include <algorithm>
 #include <array>
@@ -13,13 +15,26 @@
 namespace ceres_ed {
 namespace {
 
-constexpr int kLeafSize = 4;
-// The median split halves the triangles, so 64 levels hold more than memory can.
-constexpr int kMaxDepth = 64;
-// A triangle this much flatter than wide is closest with its edges, and its plane is unknown.
-constexpr double kFlatness = 1e-10;
-// Boxes are compared with a little slack, so that rounding does not hide an equally near triangle.
-constexpr double kBoundSlack = 1.0 - 1e-12;
+constexpr int kLeafSize = kLanes;
+// Triangles this much flatter than wide are not judged by bounds: their normals have too few
+// digits.
+constexpr double kBoundFlatness = 1e-4;
+// Bounds of distances are compared with room for rounding: of themselves, and of the size of the
+// largest triangle (squared both).
+constexpr double kBoundSlack = 1.0 - 1e-6;
+constexpr double kBoundRoom = 1e-18;
+// Of a triangle's corners and the query: how well it is known which side of an edge the query is.
+constexpr double kSideRoom = 1e-13;
+
+// The triangles of a leaf side by side: corner a, and what leads from it to b and c. Places without
+// a triangle are not a number.
+struct TriangleLeaf {
+  Lanes a[3];
+  Lanes ab[3];
+  Lanes ac[3];
+  // 1, or 0 where a bound must not be believed.
+  Lanes trust;
+};
 
 struct TriangleItem {
   Eigen::Vector3d a, b, c;
@@ -28,84 +43,105 @@ struct TriangleItem {
   std::uint8_t border;
 };
 
-// An inner node has its children at `first` and `first + 1`; a leaf has `count` triangles.
-struct BoxNode {
-  Eigen::AlignedBox3d box;
-  int first = 0;
-  int count = 0;
+// The nearest triangle so far.
+struct Best {
+  double squared_distance;
+  int item = -1;
+  Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-// The fraction of the way from a to b of the point closest to `query`, in [0, 1].
-double ClosestFraction(const Eigen::Vector3d& query,
-                       const Eigen::Vector3d& a,
-                       const Eigen::Vector3d& b) {
-  const double squared_length = (b - a).squaredNorm();
-  if (!(squared_length > 0.0)) return 0.0;
-  return std::clamp((query - a).dot(b - a) / squared_length, 0.0, 1.0);
-}
-
-Eigen::Vector3d ClosestOnEdges(const Eigen::Vector3d& query,
-                               const std::array<const Eigen::Vector3d*, 3>& corners) {
-  Eigen::Vector3d best = Eigen::Vector3d::UnitX();
-  double best_distance = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3;
-    const double t = ClosestFraction(query, *corners[i], *corners[j]);
-    const double distance = (query - (*corners[i] + t * (*corners[j] - *corners[i]))).squaredNorm();
-    if (distance >= best_distance) continue;
-    best_distance = distance;
-    best.setZero();
-    best[i] = 1.0 - t;
-    best[j] = t;
+// Exact, and the same on every machine.
+[[gnu::noinline]] void TryTriangle(const TriangleItem* items,
+                                   int i,
+                                   const Eigen::Vector3d& query,
+                                   Best* best) {
+  const TriangleItem& item = items[i];
+  const Eigen::Vector3d barycentric = ClosestPointOnTriangle(query, item.a, item.b, item.c);
+  const Eigen::Vector3d position =
+      barycentric[0] * item.a + barycentric[1] * item.b + barycentric[2] * item.c;
+  const double distance = (query - position).squaredNorm();
+  if (!(distance <= best->squared_distance)) return;
+  if (best->item >= 0 && distance == best->squared_distance &&
+      item.index > items[best->item].index) {
+    return;
   }
-  return best;
+  *best = {distance, i, barycentric, position};
 }
 
-Eigen::AlignedBox3d BoxOf(const TriangleItem& item) {
-  Eigen::AlignedBox3d box(item.a);
-  box.extend(item.b);
-  box.extend(item.c);
-  return box;
+// Three coordinates of what is in each lane.
+struct LaneVector {
+  Lanes x, y, z;
+};
+
+[[gnu::always_inline]] inline Lanes Dot(const LaneVector& u, const LaneVector& v) {
+  return u.x * v.x + u.y * v.y + u.z * v.z;
 }
+
+// Of the distance from a place (relative to the start of an edge) to the edge.
+[[gnu::always_inline]] inline Lanes SquaredToEdge(const LaneVector& place,
+                                                  const LaneVector& edge,
+                                                  const Lanes& projection,
+                                                  const Lanes& squared_length) {
+  const Lanes ahead = Where(projection > 0.0, projection);
+  const Lanes fraction =
+      Select(ahead < squared_length, ahead / squared_length, Lanes{1.0, 1.0, 1.0, 1.0});
+  const LaneVector gap = {
+      place.x - fraction * edge.x, place.y - fraction * edge.y, place.z - fraction * edge.z};
+  return Dot(gap, gap);
+}
+
+// Squared distances that are no larger than the true ones, up to kBoundSlack and kBoundRoom: to the
+// plane over a triangle, and a little around it, and to the nearest edge elsewhere.
+[[gnu::always_inline]] inline Lanes BoundDistances(const TriangleLeaf& leaf,
+                                                   const Eigen::Vector3d& query) {
+  const LaneVector ab = {leaf.ab[0], leaf.ab[1], leaf.ab[2]};
+  const LaneVector ac = {leaf.ac[0], leaf.ac[1], leaf.ac[2]};
+  const LaneVector bc = {ac.x - ab.x, ac.y - ab.y, ac.z - ab.z};
+  const LaneVector aq = {query[0] - leaf.a[0], query[1] - leaf.a[1], query[2] - leaf.a[2]};
+  const LaneVector bq = {aq.x - ab.x, aq.y - ab.y, aq.z - ab.z};
+  const LaneVector normal = {
+      ab.y * ac.z - ab.z * ac.y, ab.z * ac.x - ab.x * ac.z, ab.x * ac.y - ab.y * ac.x};
+  const Lanes b_b = Dot(ab, ab), b_c = Dot(ab, ac), c_c = Dot(ac, ac);
+  const Lanes q_b = Dot(aq, ab), q_c = Dot(aq, ac);
+  const Lanes n_n = Dot(normal, normal);
+  const Lanes to_ab = SquaredToEdge(aq, ab, q_b, b_b);
+  const Lanes to_ac = SquaredToEdge(aq, ac, q_c, c_c);
+  const Lanes to_bc = SquaredToEdge(bq, bc, Dot(bq, bc), Dot(bc, bc));
+  const Lanes to_a = Select(to_ab < to_ac, to_ab, to_ac);
+  const Lanes to_edges = Select(to_a < to_bc, to_a, to_bc);
+  // Barycentric coordinates, times n_n.
+  const Lanes v = c_c * q_b - b_c * q_c;
+  const Lanes w = b_b * q_c - b_c * q_b;
+  const Lanes least = -kSideRoom * (b_b + c_c) * (b_b + c_c + Dot(aq, aq));
+  const LaneMask inside = (v > least) & (w > least) & (n_n - v - w > least);
+  const Lanes off = Dot(aq, normal);
+  return Where(leaf.trust > 0.0, kBoundSlack * Select(inside, off * off / n_n, to_edges));
+}
+
+struct TriangleVisitor {
+  const TriangleLeaf* leaves;
+  const TriangleItem* items;
+  double room;
+  const Eigen::Vector3d& query;
+  Best* best;
+
+  double bound() const { return best->squared_distance; }
+  [[gnu::always_inline]] void Leaf(int leaf) {
+    const Lanes bounds = BoundDistances(leaves[leaf], query);
+    for (int i = 0; i < kLeafSize; ++i) {
+      // False for places without a triangle, which are not a number.
+      if (bounds[i] <= best->squared_distance + room) {
+        TryTriangle(items, leaf * kLeafSize + i, query, best);
+      }
+    }
+  }
+};
+
+CERES_ED_FOR_EACH_MACHINE
+void Search(const BoxTree& tree, TriangleVisitor* visitor) { tree.Visit(visitor->query, visitor); }
 
 }  // namespace
-
-// By the Voronoi regions of the triangle (Ericson, Real-Time Collision Detection, 5.1.5).
-Eigen::Vector3d ClosestPointOnTriangle(const Eigen::Vector3d& query,
-                                       const Eigen::Vector3d& a,
-                                       const Eigen::Vector3d& b,
-                                       const Eigen::Vector3d& c) {
-  const Eigen::Vector3d ab = b - a, ac = c - a;
-  const double widest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
-  if (!(ab.cross(ac).squaredNorm() > kFlatness * kFlatness * widest * widest))
-    return ClosestOnEdges(query, {&a, &b, &c});
-  const Eigen::Vector3d aq = query - a;
-  const double d1 = ab.dot(aq), d2 = ac.dot(aq);
-  if (d1 <= 0.0 && d2 <= 0.0) return {1.0, 0.0, 0.0};
-  const Eigen::Vector3d bq = query - b;
-  const double d3 = ab.dot(bq), d4 = ac.dot(bq);
-  if (d3 >= 0.0 && d4 <= d3) return {0.0, 1.0, 0.0};
-  const double vc = d1 * d4 - d3 * d2;
-  if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) {
-    const double t = d1 / (d1 - d3);
-    return {1.0 - t, t, 0.0};
-  }
-  const Eigen::Vector3d cq = query - c;
-  const double d5 = ab.dot(cq), d6 = ac.dot(cq);
-  if (d6 >= 0.0 && d5 <= d6) return {0.0, 0.0, 1.0};
-  const double vb = d5 * d2 - d1 * d6;
-  if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) {
-    const double t = d2 / (d2 - d6);
-    return {1.0 - t, 0.0, t};
-  }
-  const double va = d3 * d6 - d5 * d4;
-  if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-    const double t = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-    return {0.0, 1.0 - t, t};
-  }
-  const double sum = va + vb + vc;
-  return {va / sum, vb / sum, vc / sum};
-}
 
 struct SurfaceIndex::Impl {
   explicit Impl(const PointCloud& cloud) : cloud(cloud) {}
@@ -129,85 +165,62 @@ struct SurfaceIndex::Impl {
     }
   }
 
-  void Build(int node, int first, int last) {
-    Eigen::AlignedBox3d box, centers;
-    for (int i = first; i < last; ++i) {
-      const Eigen::AlignedBox3d item_box = BoxOf(items[i]);
-      box.extend(item_box);
-      centers.extend(item_box.center());
+  // Brings the items into the order of a tree.
+  void Build() {
+    std::vector<Eigen::Vector3d> centers;
+    centers.reserve(items.size());
+    for (const TriangleItem& item : items) {
+      centers.push_back(0.5 * (item.a.cwiseMin(item.b).cwiseMin(item.c) +
+                               item.a.cwiseMax(item.b).cwiseMax(item.c)));
     }
-    nodes[node].box = box;
-    if (last - first <= kLeafSize) {
-      nodes[node].first = first;
-      nodes[node].count = last - first;
-      return;
+    tree.emplace(centers, kLeafSize);
+    std::vector<TriangleItem> sorted;
+    sorted.reserve(items.size());
+    for (const int i : tree->order()) sorted.push_back(items[i]);
+    items.swap(sorted);
+    item_of_triangle.assign(cloud.triangles.size(), -1);
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      item_of_triangle[items[i].index] = static_cast<int>(i);
     }
-    Eigen::Index axis = 0;
-    centers.sizes().maxCoeff(&axis);
-    const int middle = first + (last - first) / 2;
-    std::nth_element(items.begin() + first,
-                     items.begin() + middle,
-                     items.begin() + last,
-                     [axis](const TriangleItem& s, const TriangleItem& t) {
-                       const double cs = std::min({s.a[axis], s.b[axis], s.c[axis]}) +
-                                         std::max({s.a[axis], s.b[axis], s.c[axis]});
-                       const double ct = std::min({t.a[axis], t.b[axis], t.c[axis]}) +
-                                         std::max({t.a[axis], t.b[axis], t.c[axis]});
-                       return cs != ct ? cs < ct : s.index < t.index;
-                     });
-    const int children = static_cast<int>(nodes.size());
-    nodes[node].first = children;
-    nodes.resize(nodes.size() + 2);
-    Build(children, first, middle);
-    Build(children + 1, middle, last);
-  }
-
-  struct Best {
-    double squared_distance;
-    int item = -1;
-    Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  };
-
-  void VisitLeaf(const BoxNode& leaf, const Eigen::Vector3d& query, Best* best) const {
-    for (int i = leaf.first; i < leaf.first + leaf.count; ++i) {
-      const TriangleItem& item = items[i];
-      const Eigen::Vector3d barycentric = ClosestPointOnTriangle(query, item.a, item.b, item.c);
-      const Eigen::Vector3d position =
-          barycentric[0] * item.a + barycentric[1] * item.b + barycentric[2] * item.c;
-      const double distance = (query - position).squaredNorm();
-      if (distance > best->squared_distance) continue;
-      if (best->item >= 0 && distance == best->squared_distance &&
-          item.index > items[best->item].index) {
-        continue;
+    std::vector<BoxTree::Box> boxes(tree->num_leaves());
+    leaves.resize(tree->num_leaves());
+    double largest = 0.0;
+    for (std::size_t i = 0; i < leaves.size() * kLeafSize; ++i) {
+      TriangleItem none;
+      none.a = none.b = none.c =
+          Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+      const TriangleItem& item = i < items.size() ? items[i] : none;
+      for (const Eigen::Vector3d* corner : {&item.a, &item.b, &item.c}) {
+        boxes[i / kLeafSize].Extend(*corner);
       }
-      *best = {distance, i, barycentric, position};
+      const double widest = SetPlace(item, i % kLeafSize, &leaves[i / kLeafSize]);
+      if (widest > largest) largest = widest;
     }
+    room = kBoundRoom * largest;
+    tree->Fit(boxes);
   }
 
-  Best Search(const Eigen::Vector3d& query, double squared_bound) const {
-    struct Pending {
-      double squared_distance;
-      int node;
-    };
+  // Returns the square of the longest edge.
+  static double SetPlace(const TriangleItem& item, int place, TriangleLeaf* leaf) {
+    const Eigen::Vector3d ab = item.b - item.a;
+    const Eigen::Vector3d ac = item.c - item.a;
+    for (int axis = 0; axis < 3; ++axis) {
+      leaf->a[axis][place] = item.a[axis];
+      leaf->ab[axis][place] = ab[axis];
+      leaf->ac[axis][place] = ac[axis];
+    }
+    const double widest =
+        std::max({ab.squaredNorm(), ac.squaredNorm(), (item.c - item.b).squaredNorm()});
+    const double area = ab.cross(ac).squaredNorm();
+    leaf->trust[place] = area <= kBoundFlatness * kBoundFlatness * widest * widest ? 0.0 : 1.0;
+    return widest;
+  }
+
+  Best Find(const Eigen::Vector3d& query, double squared_bound, int hint) const {
     Best best{squared_bound};
-    std::array<Pending, kMaxDepth> stack;
-    int size = 0;
-    stack[size++] = {nodes[0].box.squaredExteriorDistance(query), 0};
-    while (size > 0) {
-      const Pending top = stack[--size];
-      if (top.squared_distance * kBoundSlack > best.squared_distance) continue;
-      const BoxNode& node = nodes[top.node];
-      if (node.count > 0) {
-        VisitLeaf(node, query, &best);
-        continue;
-      }
-      Pending near{nodes[node.first].box.squaredExteriorDistance(query), node.first};
-      Pending far{nodes[node.first + 1].box.squaredExteriorDistance(query), node.first + 1};
-      if (far.squared_distance < near.squared_distance) std::swap(near, far);
-      stack[size++] = far;
-      stack[size++] = near;
-    }
+    if (hint >= 0) TryTriangle(items.data(), item_of_triangle[hint], query, &best);
+    TriangleVisitor visitor{leaves.data(), items.data(), room, query, &best};
+    Search(*tree, &visitor);
     return best;
   }
 
@@ -235,7 +248,12 @@ struct SurfaceIndex::Impl {
 
   const PointCloud& cloud;
   std::vector<TriangleItem> items;
-  std::vector<BoxNode> nodes;
+  // -1 for triangles of no item.
+  std::vector<int> item_of_triangle;
+  std::optional<BoxTree> tree;
+  // Beside `items`, four a leaf.
+  std::vector<TriangleLeaf> leaves;
+  double room = 0.0;
   // Only where there is no triangle.
   std::optional<KdTree> point_tree;
 };
@@ -247,9 +265,7 @@ SurfaceIndex::SurfaceIndex(const PointCloud& cloud, const SurfaceTopology& topol
     impl_->point_tree.emplace(cloud.points);
     return;
   }
-  impl_->nodes.reserve(impl_->items.size());
-  impl_->nodes.resize(1);
-  impl_->Build(0, 0, static_cast<int>(impl_->items.size()));
+  impl_->Build();
 }
 
 SurfaceIndex::SurfaceIndex(const PointCloud& cloud) : SurfaceIndex(cloud, BuildTopology(cloud)) {}
@@ -257,10 +273,13 @@ SurfaceIndex::~SurfaceIndex() = default;
 SurfaceIndex::SurfaceIndex(SurfaceIndex&&) noexcept = default;
 SurfaceIndex& SurfaceIndex::operator=(SurfaceIndex&&) noexcept = default;
 
-SurfaceHit SurfaceIndex::Closest(const Eigen::Vector3d& query, double max_distance) const {
+SurfaceHit SurfaceIndex::Closest(const Eigen::Vector3d& query,
+                                 double max_distance,
+                                 int hint) const {
   if (!(max_distance >= 0.0) || !query.allFinite()) return {};
-  if (!impl_->point_tree) return impl_->HitOf(impl_->Search(query, max_distance * max_distance));
-  const Neighbor nearest = impl_->point_tree->NearestWithin(query, max_distance);
+  if (!impl_->point_tree)
+    return impl_->HitOf(impl_->Find(query, max_distance * max_distance, hint));
+  const Neighbor nearest = impl_->point_tree->NearestWithin(query, max_distance, hint);
   SurfaceHit hit;
   if (!nearest.found()) return hit;
   hit.position = impl_->cloud.points[nearest.index];

@@ -36,6 +36,8 @@ struct SurfaceHit {
   bool on_border = false;
 
   bool found() const { return nearest_vertex >= 0; }
+  // The triangle, or the bare point: a hint for the search of something near.
+  int place() const { return triangle >= 0 ? triangle : nearest_vertex; }
 };
 
 // A search tree over the triangles of a mesh, or over the points of a bare cloud. `cloud` is kept
@@ -53,9 +55,11 @@ class SurfaceIndex {
   SurfaceIndex& operator=(SurfaceIndex&&) noexcept;
 
   // The closest point that is at most `max_distance` away; not found() when there is none or when
-  // `query` is not finite.
+  // `query` is not finite. `hint` is the place() of an earlier hit that is thought to be near, or
+  // -1: the nearer it is the faster is the search, and what is found doesn't depend on it.
   SurfaceHit Closest(const Eigen::Vector3d& query,
-                     double max_distance = std::numeric_limits<double>::infinity()) const;
+                     double max_distance = std::numeric_limits<double>::infinity(),
+                     int hint = -1) const;
 
  private:
   struct Impl;

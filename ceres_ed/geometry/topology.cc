@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -12,17 +13,21 @@
 namespace ceres_ed {
 namespace {
 
-// One triangle at a point: the edge to `neighbor`, and the corner across that edge.
-struct Wing {
-  int neighbor;
-  int opposite;
+// One triangle at a point: the edge to `neighbor`, and the corner across that edge. In one number,
+// which compares by the neighbour, then by the corner.
+class Wing {
+ public:
+  Wing() = default;
+  Wing(int neighbor, int opposite)
+      : key_(static_cast<std::uint64_t>(neighbor) << 32 | static_cast<std::uint32_t>(opposite)) {}
 
-  bool operator<(const Wing& other) const {
-    return neighbor != other.neighbor ? neighbor < other.neighbor : opposite < other.opposite;
-  }
-  bool operator==(const Wing& other) const {
-    return neighbor == other.neighbor && opposite == other.opposite;
-  }
+  int neighbor() const { return static_cast<int>(key_ >> 32); }
+  int opposite() const { return static_cast<int>(key_ & 0xffffffffu); }
+  bool operator<(const Wing& other) const { return key_ < other.key_; }
+  bool operator==(const Wing& other) const { return key_ == other.key_; }
+
+ private:
+  std::uint64_t key_ = 0;
 };
 
 // The wings of point p are wings[offsets[p]] to wings[offsets[p + 1]].
@@ -117,16 +122,18 @@ std::vector<Shortcut> ExtractEdges(const PointCloud& cloud,
   topology->edge_offsets.assign(1, 0);
   topology->edge_offsets.reserve(num_points + 1);
   topology->edges.reserve(wings.wings.size() / 2 + num_points);
+  topology->edge_is_border.reserve(topology->edges.capacity());
+  shortcuts.reserve(wings.wings.size() / 4);
   for (int p = 0; p < num_points; ++p) {
     const auto end = wings.wings.begin() + wings.offsets[p + 1];
     for (auto it = wings.wings.begin() + wings.offsets[p]; it != end;) {
-      const int q = it->neighbor;
+      const int q = it->neighbor();
       // The first two different corners across the edge; a triangle listed twice is one.
-      int opposite[2] = {it->opposite, -1};
+      int opposite[2] = {it->opposite(), -1};
       int num_opposite = 1;
-      for (++it; it != end && it->neighbor == q; ++it) {
+      for (++it; it != end && it->neighbor() == q; ++it) {
         if (*it == *(it - 1)) continue;
-        if (num_opposite++ == 1) opposite[1] = it->opposite;
+        if (num_opposite++ == 1) opposite[1] = it->opposite();
       }
       topology->edges.push_back({q, (cloud.points[p] - cloud.points[q]).norm()});
       topology->edge_is_border.push_back(num_opposite == 1);

@@ -1,7 +1,6 @@
 #include "ceres_ed/registration/finish_matching.h"
 
 #include <ceres_ed/geometry/closest_point.h>
-#include <ceres_ed/geometry/kd_tree.h>
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +50,8 @@ FinishMatcher::FinishMatcher(const Surface& source,
       target_(target),
       options_(options),
       target_samples_(SamplePoints(target, kSamplesPerVertex * mesh.num_vertices())),
+      on_target_(mesh.num_vertices(), -1),
+      nearest_vertex_(target_samples_.size(), -1),
       min_cosine_(std::cos(options.max_angle_deg * M_PI / 180.0)),
       oriented_(source.cloud().normals_oriented && target.cloud().normals_oriented) {}
 
@@ -64,12 +65,14 @@ Eigen::Vector3d FinishMatcher::Between(const Eigen::Vector3d& moving,
 
 void FinishMatcher::MatchForward(const std::vector<Eigen::Vector3d>& points,
                                  const std::vector<Eigen::Vector3d>& normals,
-                                 std::vector<Candidate>* candidates) const {
+                                 std::vector<Candidate>* candidates) {
+  const SurfaceIndex& index = target_.index();
   for (int v = 0; v < mesh_.num_vertices(); ++v) {
     if (!mesh_.triangles.empty() && mesh_.around_offsets[v] == mesh_.around_offsets[v + 1]) {
       continue;
     }
-    const SurfaceHit hit = target_.index().Closest(points[v], options_.max_distance);
+    const SurfaceHit hit = index.Closest(points[v], options_.max_distance, on_target_[v]);
+    on_target_[v] = hit.place();
     if (!hit.found() || hit.on_border) continue;
     Candidate candidate;
     candidate.pair.normal = Between(normals[v], target_.NormalAt(hit));
@@ -90,11 +93,18 @@ void FinishMatcher::MatchForward(const std::vector<Eigen::Vector3d>& points,
 
 void FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
                                   const std::vector<Eigen::Vector3d>& normals,
-                                  std::vector<Candidate>* candidates) const {
-  const KdTree tree(points);
-  for (const int sample : target_samples_) {
+                                  std::vector<Candidate>* candidates) {
+  if (tree_ != nullptr) {
+    tree_->Update();
+  } else {
+    tree_ = std::make_unique<KdTree>(points);
+  }
+  for (std::size_t i = 0; i < target_samples_.size(); ++i) {
+    const int sample = target_samples_[i];
     const Eigen::Vector3d& position = target_.cloud().points[sample];
-    const Neighbor nearest = tree.NearestWithin(position, options_.max_distance);
+    const Neighbor nearest =
+        tree_->NearestWithin(position, options_.max_distance, nearest_vertex_[i]);
+    nearest_vertex_[i] = nearest.index;
     if (!nearest.found()) continue;
     const int v = nearest.index;
     if (source_.topology().is_border[mesh_.point_of_vertex[v]] != 0) continue;

@@ -7,6 +7,7 @@
 #include <ceres_ed/registration/surface.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -40,6 +41,7 @@ class FinishMatcher {
   // them, as the normals of their corners tell. Weights are Welsch's with `loss_width` robust
   // standard deviations of the distances across the surface. They sum to at most the number of
   // vertices, each way half.
+  // `points` is the same vector every time.
   std::vector<FinishPair> Match(const std::vector<Eigen::Vector3d>& points, double loss_width);
 
   // 1.4826 times the median distance across the surface of what was paired last.
@@ -53,10 +55,10 @@ class FinishMatcher {
   };
   void MatchForward(const std::vector<Eigen::Vector3d>& points,
                     const std::vector<Eigen::Vector3d>& normals,
-                    std::vector<Candidate>* candidates) const;
+                    std::vector<Candidate>* candidates);
   void MatchBackward(const std::vector<Eigen::Vector3d>& points,
                      const std::vector<Eigen::Vector3d>& normals,
-                     std::vector<Candidate>* candidates) const;
+                     std::vector<Candidate>* candidates);
   // Half way between two normals; zero where they disagree.
   Eigen::Vector3d Between(const Eigen::Vector3d& moving, const Eigen::Vector3d& still) const;
 
@@ -66,6 +68,11 @@ class FinishMatcher {
   const Surface& target_;
   const MatchingOptions& options_;
   std::vector<int> target_samples_;
+  // What was closest in the round before: on the target to each vertex, and of the vertices to each
+  // target sample; -1 where nothing was.
+  std::vector<int> on_target_;
+  std::vector<int> nearest_vertex_;
+  std::unique_ptr<KdTree> tree_;
   double robust_plane_distance_ = 0.0;
   double min_cosine_;
   bool oriented_;

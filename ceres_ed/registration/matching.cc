@@ -62,28 +62,23 @@ double DistanceFromDisc(const Eigen::Vector3d& gap, const Eigen::Vector3d& norma
   return std::hypot(across, std::max(0.0, along - radius));
 }
 
-// No farther than to a point that is known, with room for rounding; NaN knows none.
-double SearchRadius(double max_distance, double known_distance) {
-  constexpr double kRoom = 1.0 + 1e-9;
-  return known_distance * kRoom < max_distance ? known_distance * kRoom : max_distance;
-}
-
 void MatchForward(const MovedSource& source,
                   const Surface& target,
                   const MatchingOptions& options,
                   MatchMemory* memory,
                   Candidate* candidates) {
   const std::vector<int>& samples = *source.samples;
-  memory->on_target.resize(samples.size(),
-                           Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()));
+  memory->on_target.resize(samples.size(), -1);
   const NormalTest normals(*source.rest, target, options);
+  const SurfaceIndex& index = target.index();
+  const std::vector<int>& order = memory->source_tree->order();
   ParallelFor(options.num_threads, static_cast<int>(samples.size()), [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
+    for (int place = begin; place < end; ++place) {
+      const int i = order[place];
       const Eigen::Vector3d& point = (*source.points)[i];
-      const SurfaceHit hit = target.index().Closest(
-          point, SearchRadius(options.max_distance, (point - memory->on_target[i]).norm()));
+      const SurfaceHit hit = index.Closest(point, options.max_distance, memory->on_target[i]);
       if (!hit.found()) continue;
-      memory->on_target[i] = hit.position;
+      memory->on_target[i] = hit.place();
       Candidate& candidate = candidates[i];
       const Eigen::Vector3d& normal = (*source.normals)[i];
       const Eigen::Vector3d target_normal = target.NormalAt(hit);
@@ -109,21 +104,19 @@ void MatchBackward(const MovedSource& source,
   memory->in_source.resize(target_samples.size(), -1);
   if (samples.empty() || target_samples.empty()) return;
   const NormalTest normals(*source.rest, target, options);
-  const KdTree tree(*source.points);
+  const KdTree& tree = *memory->source_tree;
   // Samples stand for the points between them, too.
   const double spread = std::sqrt(static_cast<double>(source.rest->cloud().size()) /
                                   static_cast<double>(samples.size()));
   const int count = static_cast<int>(target_samples.size());
   ParallelFor(options.num_threads, count, [&](int begin, int end) {
-    for (int i = begin; i < end; ++i) {
+    for (int place = begin; place < end; ++place) {
+      const int i = memory->target_order[place];
       const int point = target_samples[i];
       const Eigen::Vector3d& position = target.cloud().points[point];
       const Eigen::Vector3d& target_normal = target.cloud().normals[point];
-      const int last = memory->in_source[i];
-      const double known = last >= 0 ? ((*source.points)[last] - position).norm()
-                                     : std::numeric_limits<double>::infinity();
       const Neighbor nearest =
-          tree.NearestWithin(position, SearchRadius(options.max_distance, known));
+          tree.NearestWithin(position, options.max_distance, memory->in_source[i]);
       if (!nearest.found()) continue;
       memory->in_source[i] = nearest.index;
       const int sample = samples[nearest.index];
@@ -141,6 +134,23 @@ void MatchBackward(const MovedSource& source,
       candidate.normals_agree = normals.Agree(normal, target_normal);
     }
   });
+}
+
+// Brings the trees and orders up to date.
+void Prepare(const MovedSource& source,
+             const Surface& target,
+             const std::vector<int>& target_samples,
+             MatchMemory* memory) {
+  if (memory->source_tree != nullptr && memory->source_points == source.points) {
+    memory->source_tree->Update();
+    return;
+  }
+  memory->source_tree = std::make_unique<KdTree>(*source.points);
+  memory->source_points = source.points;
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(target_samples.size());
+  for (const int point : target_samples) positions.push_back(target.cloud().points[point]);
+  memory->target_order = KdTree(positions).order();
 }
 
 double MedianDistance(const std::vector<Candidate>& candidates) {
@@ -167,6 +177,7 @@ std::vector<Candidate> FindCandidates(const MovedSource& source,
   MatchMemory none;
   if (memory == nullptr) memory = &none;
   Candidate* backward = candidates.data() + source.samples->size();
+  Prepare(source, target, target_samples, memory);
   MatchForward(source, target, options, memory, candidates.data());
   MatchBackward(source, target, target_samples, options, memory, backward);
   return candidates;

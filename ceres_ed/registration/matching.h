@@ -3,9 +3,11 @@
 #define CERES_ED_REGISTRATION_MATCHING_H_
 
 #include <ceres_ed/energy/energy.h>
+#include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/registration/surface.h>
 
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include <Eigen/Core>
@@ -46,10 +48,15 @@ struct MovedSource {
 // Where a matching found its closest points. The next one of the same samples starts from there,
 // which makes it faster and changes nothing.
 struct MatchMemory {
-  // Of the samples of the source, on the target; NaN where there is none.
-  std::vector<Eigen::Vector3d> on_target;
+  // Of the samples of the source, on the target (SurfaceHit::place); -1 where there is none.
+  std::vector<int> on_target;
   // Of the samples of the target, among the samples of the source; -1 where there is none.
   std::vector<int> in_source;
+  // Of the samples of the source, and the vector that it refers to: another one gets another tree.
+  std::unique_ptr<KdTree> source_tree;
+  const std::vector<Eigen::Vector3d>* source_points = nullptr;
+  // The samples of the target, such that neighbours are near each other.
+  std::vector<int> target_order;
 };
 
 // What a matching found.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <Eigen/Eigenvalues>
@@ -83,10 +84,13 @@ RigidAligner::RigidAligner(RigidSide source, RigidSide target, const RigidAligne
       options_(options),
       min_cosine_(std::cos(options.max_angle_deg * M_PI / 180.0)) {}
 
-std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose) const {
+std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose,
+                                                         std::vector<int>* nearest) const {
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
   const Similarity source_from_target = pose.Inverse();
   const int num_forward = static_cast<int>(source_.samples.size());
   std::vector<PlanePair> pairs(source_.samples.size() + target_.samples.size());
+  nearest->resize(pairs.size(), -1);
   const auto agreement = [&](const Eigen::Vector3d& source_normal, const Eigen::Vector3d& n) {
     const double cosine = (pose.rotation * source_normal).dot(n);
     return options_.oriented ? cosine : std::abs(cosine);
@@ -96,8 +100,9 @@ std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose)
     if (i < num_forward) {
       const int point = source_.samples[i];
       pair.moved = pose * (*source_.points)[point];
-      const Neighbor hit = target_.tree->Nearest(pair.moved);
+      const Neighbor hit = target_.tree->NearestWithin(pair.moved, kAnywhere, (*nearest)[i]);
       if (!hit.found()) return;
+      (*nearest)[i] = hit.index;
       pair.target = (*target_.points)[hit.index];
       pair.normal = (*target_.normals)[hit.index];
       pair.on_border = (*target_.is_border)[hit.index] != 0;
@@ -106,8 +111,10 @@ std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose)
       const int point = target_.samples[i - num_forward];
       pair.target = (*target_.points)[point];
       pair.normal = (*target_.normals)[point];
-      const Neighbor hit = source_.tree->Nearest(source_from_target * pair.target);
+      const Neighbor hit =
+          source_.tree->NearestWithin(source_from_target * pair.target, kAnywhere, (*nearest)[i]);
       if (!hit.found()) return;
+      (*nearest)[i] = hit.index;
       pair.moved = pose * (*source_.points)[hit.index];
       pair.on_border = (*source_.is_border)[hit.index] != 0;
       pair.cosine = agreement((*source_.normals)[hit.index], pair.normal);
@@ -123,7 +130,8 @@ std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose)
 }
 
 RigidScore RigidAligner::Score(const Similarity& pose) const {
-  const std::vector<PlanePair> pairs = Pairs(pose);
+  std::vector<int> nearest;
+  const std::vector<PlanePair> pairs = Pairs(pose, &nearest);
   const std::size_t num_forward = source_.samples.size();
   const double scale = 1.0 / (options_.width * options_.width);
   double missed[2] = {0.0, 0.0};
@@ -235,8 +243,9 @@ RigidAligner::Vector7 RigidAligner::SolveObserved(const StepSums& sums) const {
 Similarity RigidAligner::Refine(Similarity pose, int iterations) const {
   constexpr double kConverged = 1e-7;
   const double floor = 1e-3 * options_.width;
+  std::vector<int> nearest;
   for (int i = 0; i < iterations; ++i) {
-    const std::vector<PlanePair> pairs = Pairs(pose);
+    const std::vector<PlanePair> pairs = Pairs(pose, &nearest);
     std::vector<double> squared;
     for (const PlanePair& pair : pairs) {
       if (pair.IsUsable()) squared.push_back(pair.squared_distance);

@@ -71,7 +71,8 @@ class RigidAligner {
   struct StepSums;
   using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-  std::vector<PlanePair> Pairs(const Similarity& pose) const;
+  // `nearest`, one a sample, has what was nearest at a pose before, or -1, and gets what is now.
+  std::vector<PlanePair> Pairs(const Similarity& pose, std::vector<int>* nearest) const;
   bool Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const;
   Vector7 SolveObserved(const StepSums& sums) const;
 

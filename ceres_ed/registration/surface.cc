@@ -19,9 +19,8 @@ PointCloud WithNormals(PointCloud cloud, int num_threads) {
 }
 
 std::vector<double> RelativeAreas(const PointCloud& cloud) {
-  std::vector<double> areas(cloud.size(), 1.0);
-  if (!cloud.HasTriangles()) return areas;
-  std::fill(areas.begin(), areas.end(), 0.0);
+  if (!cloud.HasTriangles()) return std::vector<double>(cloud.size(), 1.0);
+  std::vector<double> areas(cloud.size(), 0.0);
   double total = 0.0;
   for (const std::array<int, 3>& t : cloud.triangles) {
     const Eigen::Vector3d& a = cloud.points[t[0]];
@@ -51,10 +50,18 @@ std::vector<double> Radii(const PointCloud& cloud) {
 Surface::Surface(PointCloud cloud, int num_threads)
     : cloud_(WithNormals(std::move(cloud), num_threads)),
       topology_(BuildTopology(cloud_)),
-      index_(cloud_, topology_),
-      tree_(cloud_.points),
       relative_areas_(RelativeAreas(cloud_)),
       radii_(Radii(cloud_)) {}
+
+const SurfaceIndex& Surface::index() const {
+  std::call_once(index_built_, [this] { index_.emplace(cloud_, topology_); });
+  return *index_;
+}
+
+const KdTree& Surface::tree() const {
+  std::call_once(tree_built_, [this] { tree_.emplace(cloud_.points); });
+  return *tree_;
+}
 
 Eigen::Vector3d Surface::NormalAt(const SurfaceHit& hit) const {
   if (hit.triangle < 0) return cloud_.normals[hit.nearest_vertex];

@@ -7,6 +7,8 @@
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/topology.h>
 
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -24,10 +26,10 @@ class Surface {
 
   const PointCloud& cloud() const { return cloud_; }
   const SurfaceTopology& topology() const { return topology_; }
-  // The closest point of the surface, between its points too.
-  const SurfaceIndex& index() const { return index_; }
-  // The closest of its points: several times faster.
-  const KdTree& tree() const { return tree_; }
+  // The closest point of the surface, between its points too. Built when it is first asked for.
+  const SurfaceIndex& index() const;
+  // The closest of its points: several times faster. Built when it is first asked for.
+  const KdTree& tree() const;
   // The area that each point stands for, relative to the mean of all points: a third of its
   // triangles. 1 for bare points; kept in [0.1, 10].
   const std::vector<double>& relative_areas() const { return relative_areas_; }
@@ -40,8 +42,10 @@ class Surface {
  private:
   PointCloud cloud_;
   SurfaceTopology topology_;
-  SurfaceIndex index_;
-  KdTree tree_;
+  mutable std::once_flag index_built_;
+  mutable std::once_flag tree_built_;
+  mutable std::optional<SurfaceIndex> index_;
+  mutable std::optional<KdTree> tree_;
   std::vector<double> relative_areas_;
   std::vector<double> radii_;
 };

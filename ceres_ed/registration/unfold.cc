@@ -5,6 +5,7 @@
 #include <ceres_ed/solver/sparse_cholesky.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <utility>
 
@@ -41,6 +42,7 @@ class Unfolder {
         finder_(mesh_, rest_),
         is_held_(rest_.size(), 0),
         index_(rest_.size(), -1),
+        on_target_(rest_.size(), -1),
         points_(*points) {
     for (const int v : input.held) is_held_[v] = 1;
   }
@@ -67,7 +69,7 @@ class Unfolder {
   void SpreadRotations();
   void FindRotations();
   // What pulls vertex `i` of the patch, times its weight.
-  Eigen::Vector3d Pull(int i) const;
+  Eigen::Vector3d Pull(int i);
   void SolvePoints(const Points& start, double pull);
   void Relax(const Points& start, double pull, bool spread);
 
@@ -84,6 +86,8 @@ class Unfolder {
   std::vector<int> patch_;
   int num_free_ = 0;
   std::vector<char> is_pulled_;
+  // Where a vertex was closest to the target (SurfaceHit::place); -1 where that isn't known.
+  std::vector<int> on_target_;
   std::vector<Eigen::Matrix3d> rotations_;
   std::unique_ptr<SparseCholesky> factor_;
   Points& points_;
@@ -110,8 +114,10 @@ void Unfolder::FindPulled(const Points& start) {
   is_pulled_.assign(num_free_, 0);
   if (target_ == nullptr) return;
   for (int i = 0; i < num_free_; ++i) {
-    const double squared_distance = target_->index().Closest(start[i]).squared_distance;
-    is_pulled_[i] = squared_distance < max_distance_ * max_distance_ ? 1 : 0;
+    int& on_target = on_target_[patch_[i]];
+    const SurfaceHit hit = target_->index().Closest(start[i], max_distance_, on_target);
+    is_pulled_[i] = hit.squared_distance < max_distance_ * max_distance_ ? 1 : 0;
+    if (hit.found()) on_target = hit.place();
   }
 }
 
@@ -157,9 +163,11 @@ void Unfolder::SpreadRotations() {
   }
 }
 
-Eigen::Vector3d Unfolder::Pull(int i) const {
+Eigen::Vector3d Unfolder::Pull(int i) {
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
   const int v = patch_[i];
-  const SurfaceHit hit = target_->index().Closest(points_[v]);
+  const SurfaceHit hit = target_->index().Closest(points_[v], kAnywhere, on_target_[v]);
+  on_target_[v] = hit.place();
   const bool is_alike = (rotations_[i] * rest_normals_[v]).dot(target_->NormalAt(hit)) > kMinCosine;
   return is_alike ? hit.position : points_[v];
 }

@@ -86,6 +86,62 @@ TEST(SurfaceIndex, EqualsBruteForceOverAllTriangles) {
   }
 }
 
+// Slivers of all degrees, far from the origin, and queries from on the surface to far away: what
+// bounds could get wrong.
+TEST(SurfaceIndex, EqualsBruteForceOnSliversNearAndFar) {
+  PointCloud mesh;
+  const std::vector<Eigen::Vector3d> random = RandomPoints(3 * 80, 45);
+  const Eigen::Vector3d offset(300.0, -200.0, 100.0);
+  for (int i = 0; i < 80; ++i) {
+    const double width = std::pow(10.0, -i % 16);
+    const Eigen::Vector3d a = random[3 * i] + offset, ab = random[3 * i + 1];
+    const Eigen::Vector3d c = a + 0.3 * ab + width * random[3 * i + 2];
+    const int first = static_cast<int>(mesh.size());
+    for (const Eigen::Vector3d& point : {a, Eigen::Vector3d(a + ab), c})
+      mesh.points.push_back(point);
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  }
+  const SurfaceIndex index(mesh);
+  std::vector<Eigen::Vector3d> queries;
+  for (const Eigen::Vector3d& away : RandomPoints(200, 46)) {
+    const int i = static_cast<int>(queries.size()) / 2 % 80;
+    const Eigen::Vector3d on = (mesh.points[3 * i] + mesh.points[3 * i + 1]) / 2.0;
+    queries.push_back(on + 1e-7 * away);
+    queries.push_back(offset + 30.0 * away);
+  }
+  for (const Eigen::Vector3d& query : queries) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b, c] : mesh.triangles) {
+      const Eigen::Vector3d &pa = mesh.points[a], &pb = mesh.points[b], &pc = mesh.points[c];
+      const Eigen::Vector3d w = ClosestPointOnTriangle(query, pa, pb, pc);
+      best = std::min(best, (query - (w[0] * pa + w[1] * pb + w[2] * pc)).squaredNorm());
+    }
+    EXPECT_EQ(index.Closest(query).squared_distance, best);
+  }
+}
+
+TEST(SurfaceIndex, AHintChangesNothing) {
+  PointCloud mesh = MakeSphereMesh(3);
+  const int last = static_cast<int>(mesh.triangles.size()) - 1;
+  PointCloud bare;
+  bare.points = mesh.points;
+  for (const PointCloud* cloud : {&mesh, &bare}) {
+    const SurfaceIndex index(*cloud);
+    // The vertices themselves, too: each is as near to all triangles around it.
+    std::vector<Eigen::Vector3d> queries = RandomPoints(100, 47, 1.5);
+    queries.insert(queries.end(), mesh.points.begin(), mesh.points.begin() + 100);
+    for (const Eigen::Vector3d& query : queries) {
+      const SurfaceHit expected = index.Closest(query, 0.4);
+      for (const int hint : {0, cloud == &mesh ? last : 7, expected.place()}) {
+        const SurfaceHit hit = index.Closest(query, 0.4, hint);
+        EXPECT_EQ(hit.place(), expected.place());
+        EXPECT_EQ(hit.position, expected.position);
+        EXPECT_EQ(hit.squared_distance, expected.squared_distance);
+      }
+    }
+  }
+}
+
 TEST(SurfaceIndex, AMaximumDistanceHidesWhatIsFarther) {
   const PointCloud mesh = MakeGridMesh(5, 5);
   const SurfaceIndex index(mesh);

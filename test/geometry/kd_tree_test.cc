@@ -96,6 +96,40 @@ TEST(KdTree, NearestWithinIncludesTheDistanceAndStopsThere) {
   EXPECT_TRUE(std::isinf(tree.NearestWithin({5, 0, 0}, 1.0).squared_distance));
 }
 
+TEST(KdTree, AHintChangesNothing) {
+  const std::vector<Eigen::Vector3d> points = TiedPoints();
+  const KdTree tree(points);
+  for (const Eigen::Vector3d& query : RandomPoints(50, 5, 3.0)) {
+    const Eigen::Vector3d rounded = query.array().round();
+    for (const Eigen::Vector3d& q : {query, rounded}) {
+      const Neighbor expected = tree.NearestWithin(q, 1.5);
+      for (const int hint : {0, 249, expected.index}) {
+        EXPECT_EQ(tree.NearestWithin(q, 1.5, hint).index, expected.index);
+        EXPECT_EQ(tree.NearestWithin(q, 1.5, hint).squared_distance, expected.squared_distance);
+      }
+    }
+  }
+}
+
+TEST(KdTree, AnUpdateFindsPointsWhereTheyAreNow) {
+  std::vector<Eigen::Vector3d> points = RandomPoints(300, 6);
+  KdTree tree(points);
+  points = RandomPoints(300, 7, 2.0);
+  points[12].x() = std::numeric_limits<double>::quiet_NaN();
+  tree.Update();
+  std::vector<Neighbor> found;
+  for (const Eigen::Vector3d& query : RandomPoints(100, 8, 2.5)) {
+    // One that is not a number comes last.
+    std::vector<Eigen::Vector3d> there = points;
+    there[12].x() = 1e9;
+    std::vector<Neighbor> expected = BruteForce(there, query);
+    expected.resize(6);
+    tree.KNearest(query, 6, &found);
+    ExpectSame(found, expected);
+    EXPECT_EQ(tree.NearestWithin(query, 1e3, 12).index, expected[0].index);
+  }
+}
+
 TEST(KdTree, FindsNothingInAnEmptyTreeOrForAQueryThatIsNotFinite) {
   const std::vector<Eigen::Vector3d> none;
   const KdTree empty(none);
