@@ -6,7 +6,7 @@ packages=(
   build-essential cmake ninja-build ccache
   libceres-dev libeigen3-dev libsuitesparse-dev libopenblas-dev
   libgoogle-glog-dev libgflags-dev
-  nlohmann-json3-dev libpcl-dev libboost-dev
+  libnanoflann-dev nlohmann-json3-dev libpcl-dev libboost-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev
   libgtest-dev libgmock-dev
 )

@@ -29,8 +29,7 @@ class KdTree {
   KdTree& operator=(KdTree&&) noexcept;
 
   // Call it after points have moved: from then on searches find them where they are. Their number
-  // and the vector are the same. Faster than a new tree, and searches are as fast as before while
-  // neighbours stay neighbours. No search may run meanwhile.
+  // and the vector are the same. No search may run meanwhile.
   void Update();
 
   // The points as they lie in the tree: near in it is near in space. Searches in this order find

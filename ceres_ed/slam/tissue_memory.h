@@ -49,7 +49,7 @@ class TissueMemory final : public NodePriorSource {
   void UpdatePriors(const std::vector<int>& nodes, DeformableMap* map) override;
 
   // Returns the nodes whose recalled place depends on the last Look(), by number; the others are
-  // recalled as ever. Valid until the next call.
+  // recalled as ever.
   std::vector<int> Affected() const;
 
   // Keeps t_j of the nodes that are `observed`.

@@ -1,6 +1,6 @@
 #include "ceres_ed/slam/window_sums.h"
 
-#include <ceres_ed/util/multiversion.h>
+#include <ceres_ed/util/for_each_machine.h>
 
 #include <algorithm>
 #include <cstdlib>

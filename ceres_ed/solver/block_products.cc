@@ -1,13 +1,13 @@
 #include "ceres_ed/solver/block_products.h"
 
-#include <ceres_ed/solver/machine_clones.h>
+#include <ceres_ed/util/for_each_machine.h>
 
 #include <cost_functions/node_parameters.h>
 
 namespace ceres_ed {
 namespace {
 
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddNodeProduct(int num_residuals, const double* A, const double* B, int stride, double* out) {
   for (int k = 0; k < num_residuals; ++k) {
     const double* a = A + k * kNodeSize;

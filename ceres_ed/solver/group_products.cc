@@ -1,6 +1,6 @@
 #include "ceres_ed/solver/group_products.h"
 
-#include <ceres_ed/solver/machine_clones.h>
+#include <ceres_ed/util/for_each_machine.h>
 
 #include <algorithm>
 
@@ -19,7 +19,7 @@ constexpr int kLever[4][4] = {{0, 1, 3, 6}, {1, 2, 4, 7}, {3, 4, 5, 8}, {6, 7, 8
 using Vector8 = double __attribute__((vector_size(64)));
 
 // sum += sum_p weights[p stride] rows[p], of rows of kRow.
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddWeightedRows(
     int count, const double* rows, const double* weights, int stride, double* sum) {
   auto* out = reinterpret_cast<Vector8*>(sum);
@@ -46,7 +46,7 @@ void AddWeightedRows(
 }
 
 // (h h^T) (x) M of each point.
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void FormPairRows(int count, const double* levers, const double* moments, double* rows) {
   for (int p = 0; p < count; ++p) {
     const double x = levers[3 * p];
@@ -64,7 +64,7 @@ void FormPairRows(int count, const double* levers, const double* moments, double
 }
 
 // M and [p]_x M, times each entry of h, of each point.
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void FormCameraRows(
     int count, const double* levers, const double* moments, const double* warped, double* rows) {
   constexpr int kEntries = GroupSums::kCameraMoments;
@@ -90,7 +90,7 @@ void FormCameraRows(
 
 // The camera's own block needs but the sums of what its rows with the nodes are made of: the last
 // of the four levers is 1.
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddCameraMoments(int count, const double* rows, const double* warped, GroupSums* sums) {
   double totals[GroupSums::kCameraMoments] = {};
   double turned[9] = {};
@@ -127,7 +127,7 @@ void GroupSums::SetZero(int num_nodes) {
   shift_gradient.setZero();
 }
 
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void WarpPoints(int count,
                 int num_nodes,
                 const double* levers,
@@ -147,7 +147,7 @@ void WarpPoints(int count,
   }
 }
 
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddGroupGradients(const LinearizedPoints& points, GroupSums* sums) {
   for (int p = 0; p < points.count; ++p) {
     const double* lever = points.levers + 3 * p;
@@ -195,7 +195,7 @@ void AddGroupProducts(const LinearizedPoints& points, GroupSums* sums) {
 }
 
 // Of lever pairs (i, j): (h + s)_i (h + t)_j, the last entries of h, s and t being 1, 0 and 0.
-CERES_ED_FOR_EACH_MACHINE
+CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddPairBlock(const double* sums,
                   const double* row_shift,
                   const double* column_shift,
