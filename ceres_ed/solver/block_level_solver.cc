@@ -53,11 +53,14 @@ class Minimizer {
             const BlockStructure& structure,
             const SolverOptions& options,
             BlockCholesky* cholesky,
+            LevelWorkspace* workspace,
             DeformationState* state)
       : equations_(equations),
         structure_(structure),
         options_(options),
         cholesky_(cholesky),
+        values_(workspace->values),
+        candidate_values_(workspace->candidate_values),
         state_(state),
         radius_(options.initial_trust_region_radius) {}
 
@@ -78,17 +81,17 @@ class Minimizer {
   const BlockStructure& structure_;
   const SolverOptions& options_;
   BlockCholesky* cholesky_;
+  std::vector<double>& values_;
+  std::vector<double>& candidate_values_;
   DeformationState* state_;
   const Timer timer_;
   double radius_;
   double decrease_factor_ = 2.0;
   double cost_ = 0.0;
-  std::vector<double> values_;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;
   SavedUnknowns before_;
-  // The equations at a candidate, swapped in when it is accepted.
-  std::vector<double> candidate_values_;
+  // That at a candidate; with candidate_values_ it is swapped in when the candidate is accepted.
   Eigen::VectorXd candidate_gradient_;
 };
 
@@ -235,7 +238,8 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
   level.build_time_s = timer.Restart();
   SavedUnknowns before;
   before.Save(equations_, *state);
-  Minimizer(equations_, *structure_, options, cholesky_.get(), state).Run(&level, summary);
+  Minimizer(equations_, *structure_, options, cholesky_.get(), &workspace_, state)
+      .Run(&level, summary);
   level.solve_time_s = timer.Seconds();
   summary->levels.push_back(level);
   if (!summary->IsUsable()) before.Restore(equations_, state);

@@ -8,10 +8,15 @@
 #include <ceres_ed/solver/normal_equations.h>
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 namespace ceres_ed {
+
+// The largest arrays of a solve, kept for their memory.
+struct LevelWorkspace {
+  std::vector<double> values;
+  std::vector<double> candidate_values;
+};
 
 // Levenberg-Marquardt with the acceptance rules and tolerances of Ceres, on the same cost functions
 // and losses. Keeps structure and symbolic factor from solve to solve: while the variable nodes
@@ -31,6 +36,7 @@ class BlockLevelSolver final : public LevelSolver {
 
   // Those of the last problem, kept for their memory.
   NormalEquations equations_;
+  LevelWorkspace workspace_;
   std::vector<char> variable_nodes_;
   std::vector<int> sizes_;
   std::vector<BlockPair> pairs_;

@@ -1,5 +1,6 @@
 #include "ceres_ed/solver/double_buffer.h"
 
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
@@ -21,14 +22,24 @@ double* Allocate(std::size_t size) {
   const std::size_t unit = is_large ? kLargePage : kCacheLine;
   void* data = std::aligned_alloc(unit, RoundUp(bytes > 0 ? bytes : 1, unit));
   if (data == nullptr) throw std::bad_alloc();
-#ifdef __linux__
-  // A wish: where it isn't granted nothing is lost.
-  if (is_large) static_cast<void>(madvise(data, RoundUp(bytes, unit), MADV_HUGEPAGE));
-#endif
+  if (is_large) WishForLargePages(data, bytes);
   return static_cast<double*>(data);
 }
 
 }  // namespace
+
+void WishForLargePages(void* data, std::size_t bytes) {
+#ifdef __linux__
+  const auto begin = reinterpret_cast<std::uintptr_t>(data);
+  const std::uintptr_t first = RoundUp(begin, kLargePage);
+  const std::uintptr_t last = (begin + bytes) / kLargePage * kLargePage;
+  if (first >= last) return;
+  static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+#else
+  static_cast<void>(data);
+  static_cast<void>(bytes);
+#endif
+}
 
 DoubleBuffer::DoubleBuffer(std::size_t size) : size_(size), data_(Allocate(size)) {}
 

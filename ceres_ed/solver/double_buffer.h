@@ -7,8 +7,12 @@
 
 namespace ceres_ed {
 
+// Asks the system for large pages in a range that has not been touched yet: it hands them out in a
+// small part of the time. A wish: where it isn't granted nothing is lost.
+void WishForLargePages(void* data, std::size_t bytes);
+
 // Doubles that start on a line of the cache and aren't set: memory that isn't needed isn't touched.
-// Large ones ask the system for large pages, which take it a small part of the time to hand out.
+// Large ones wish for large pages.
 class DoubleBuffer {
  public:
   explicit DoubleBuffer(std::size_t size);

@@ -1,4 +1,5 @@
 // How NormalEquations goes through its residuals.
+#include <ceres_ed/solver/double_buffer.h>
 #include <ceres_ed/solver/normal_equations.h>
 #include <ceres_ed/util/parallel.h>
 
@@ -61,6 +62,11 @@ bool NormalEquations::EvaluateTasks(const DeformationState& state,
   CHECK(structure_ != nullptr) << "SetStructure comes first";
   Sums sums;
   if (values != nullptr) {
+    if (values->capacity() < structure_->num_values()) {
+      values->clear();
+      values->reserve(structure_->num_values());
+      WishForLargePages(values->data(), structure_->num_values() * sizeof(double));
+    }
     values->assign(structure_->num_values(), 0.0);
     sums.values = values->data();
     SetDualDiagonals(sums.values);
