@@ -1,297 +1,310 @@
 #include "ceres_ed/solver/block_cholesky.h"
 
-#include <ceres_ed/solver/ordered_structure.h>
+#include <ceres_ed/solver/front_kernels.h>
+#include <ceres_ed/solver/front_layout.h>
+#include <ceres_ed/util/parallel.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCholesky>
-#include <Eigen/SparseCore>
 #include <glog/logging.h>
-
-#ifdef CERES_ED_HAVE_CHOLMOD
-#include <cholmod.h>
-#endif
 
 namespace ceres_ed {
 namespace {
 
-using SparseMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
+// Updates of fewer multiplications are not worth a second thread.
+constexpr double kParallelUpdate = 4e6;
 
-// The scalar lower triangle of a block structure.
-SparseMatrix ScalarPattern(const BlockStructure& structure) {
-  SparseMatrix matrix(structure.num_rows(), structure.num_rows());
-  std::vector<int> column_sizes(structure.num_rows());
-  for (int j = 0; j < structure.num_blocks(); ++j) {
-    for (int c = 0; c < structure.size(j); ++c) {
-      int rows = structure.size(j) - c;
-      for (int e = structure.column_begin(j) + 1; e < structure.column_begin(j + 1); ++e) {
-        rows += structure.size(structure.entry_row(e));
-      }
-      column_sizes[structure.row_offset(j) + c] = rows;
-    }
-  }
-  matrix.reserve(column_sizes);
-  for (int j = 0; j < structure.num_blocks(); ++j) {
-    for (int c = 0; c < structure.size(j); ++c) {
-      const int column = structure.row_offset(j) + c;
-      for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
-        const int row_block = structure.entry_row(e);
-        for (int r = row_block == j ? c : 0; r < structure.size(row_block); ++r) {
-          matrix.insert(structure.row_offset(row_block) + r, column) = 0.0;
-        }
-      }
-    }
-  }
-  matrix.makeCompressed();
-  return matrix;
+FactorLayout LayOut(const BlockStructure& structure,
+                    const BlockVertices& vertices,
+                    int num_trailing) {
+  const std::vector<BlockPiece> pieces = vertices.Pieces(structure);
+  const RowGraph graph = vertices.Graph(pieces);
+  const std::vector<int> order = FillReducingOrder(graph, vertices.is_affine(), num_trailing);
+  return LayOutFactor(vertices, pieces, BuildFronts(graph, order, num_trailing));
 }
 
-// The block graph of the first `num_blocks` blocks, lower triangle.
-SparseMatrix LeadingGraph(const BlockStructure& structure, int num_blocks) {
-  CHECK(num_blocks >= 0 && num_blocks <= structure.num_blocks()) << num_blocks << " blocks";
-  SparseMatrix graph(num_blocks, num_blocks);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int j = 0; j < num_blocks; ++j) {
-    for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
-      if (structure.entry_row(e) < num_blocks) entries.emplace_back(structure.entry_row(e), j, 1.0);
-    }
+// Adds rows [begin, ...) of a column of a child's update to a column of its parent.
+void AddRuns(const std::vector<RowRun>& runs, int begin, const double* from, double* to) {
+  for (const RowRun& run : runs) {
+    const int skipped = std::max(0, begin - run.from);
+    for (int i = skipped; i < run.length; ++i) to[run.to + i] += from[run.from + i];
   }
-  graph.setFromTriplets(entries.begin(), entries.end());
-  return graph;
-}
-
-void AppendTrailing(const BlockStructure& structure, std::vector<int>* order) {
-  for (int j = static_cast<int>(order->size()); j < structure.num_blocks(); ++j) {
-    order->push_back(j);
-  }
-}
-
-// Scalar rows of the last blocks.
-int NumTrailingRows(const BlockStructure& structure, int num_trailing) {
-  return structure.num_rows() - structure.row_offset(structure.num_blocks() - num_trailing);
-}
-
-}  // namespace
-
-#ifdef CERES_ED_HAVE_CHOLMOD
-
-namespace {
-
-cholmod_sparse View(SparseMatrix* matrix) {
-  cholmod_sparse view{};
-  view.nrow = matrix->rows();
-  view.ncol = matrix->cols();
-  view.nzmax = matrix->nonZeros();
-  view.p = matrix->outerIndexPtr();
-  view.i = matrix->innerIndexPtr();
-  view.x = matrix->valuePtr();
-  view.stype = -1;
-  view.itype = CHOLMOD_INT;
-  view.xtype = CHOLMOD_REAL;
-  view.dtype = CHOLMOD_DOUBLE;
-  view.sorted = 1;
-  view.packed = 1;
-  return view;
-}
-
-// A fill-reducing, postordered order of the blocks, each taken as one row, with the trailing ones
-// behind the others.
-std::vector<int> FillReducingOrder(const BlockStructure& structure,
-                                   int num_trailing,
-                                   cholmod_common* common) {
-  SparseMatrix graph = LeadingGraph(structure, structure.num_blocks() - num_trailing);
-  std::vector<int> blocks;
-  if (graph.cols() > 0) {
-    cholmod_sparse view = View(&graph);
-    cholmod_factor* symbolic = cholmod_analyze(&view, common);
-    CHECK(symbolic != nullptr) << "CHOLMOD status " << common->status;
-    const int* order = static_cast<const int*>(symbolic->Perm);
-    blocks.assign(order, order + graph.cols());
-    cholmod_free_factor(&symbolic, common);
-  }
-  AppendTrailing(structure, &blocks);
-  return blocks;
 }
 
 }  // namespace
 
 struct BlockCholesky::Impl {
-  Impl(const BlockStructure& block_structure, int num_trailing)
-      : started(Start()),
-        structure(block_structure, FillReducingOrder(block_structure, num_trailing, &common)),
-        matrix(ScalarPattern(structure.ordered())),
-        num_trailing_rows(NumTrailingRows(block_structure, num_trailing)),
-        rhs(matrix.rows()) {
-    // The matrix is in its final order: CHOLMOD then takes it as it is, without a permuted copy.
-    common.supernodal = CHOLMOD_SUPERNODAL;
-    common.nmethods = 1;
-    common.method[0].ordering = CHOLMOD_NATURAL;
-    common.postorder = 0;
-    cholmod_sparse view = View(&matrix);
-    factor = cholmod_analyze(&view, &common);
-    CHECK(factor != nullptr) << "CHOLMOD status " << common.status;
-  }
+  Impl(const BlockStructure& block_structure, int trailing)
+      : structure(block_structure),
+        num_trailing_rows(structure.num_rows() -
+                          structure.row_offset(structure.num_blocks() - trailing)),
+        vertices(structure, trailing),
+        layout(LayOut(structure, vertices, trailing)),
+        panels(layout.panel_size),
+        updates(layout.update_size),
+        ordered(layout.num_rows),
+        below(layout.max_update_rows) {}
 
-  ~Impl() {
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
-  }
+  bool Factorize(const double* values, const Eigen::VectorXd& diagonal, int num_threads);
+  bool FactorizeFront(int f, const double* values, int num_threads);
+  void TakePieces(const FrontLayout& front, const double* values);
+  void TakeColumns(const FrontLayout& front, const FrontLayout& child);
+  void TakeUpdate(const FrontLayout& front, const FrontLayout& child);
+  void MakeUpdate(const FrontLayout& front, int num_threads);
 
-  bool Start() {
-    cholmod_start(&common);
-    common.print = 0;
-    common.error_handler = nullptr;
-    return true;
-  }
+  void ToOrdered(const Eigen::VectorXd& rows);
+  Eigen::VectorXd FromOrdered() const;
+  void SolveForward();
+  void SolveBackward();
+  Eigen::MatrixXd TrailingFactor() const;
 
-  bool Factorize(const double* values, const Eigen::VectorXd& diagonal) {
-    structure.FillValues(values, diagonal, matrix.valuePtr());
-    cholmod_sparse view = View(&matrix);
-    return cholmod_factorize(&view, factor, &common) != 0 && common.status == CHOLMOD_OK;
-  }
+  const BlockStructure& structure;
+  const int num_trailing_rows;
+  const BlockVertices vertices;
+  const FactorLayout layout;
+  std::vector<double> panels;
+  std::vector<double> updates;
+  // Rows in the order of elimination: what is added to the diagonal, then what is solved for.
+  Eigen::VectorXd ordered;
+  // Rows below a front's own.
+  Eigen::VectorXd below;
+};
 
-  Eigen::VectorXd Solve(const Eigen::VectorXd& right_side) { return Solve(CHOLMOD_A, right_side); }
-  Eigen::VectorXd SolveLower(const Eigen::VectorXd& right_side) {
-    return Solve(CHOLMOD_L, right_side);
-  }
-  Eigen::VectorXd SolveUpper(const Eigen::VectorXd& right_side) {
-    return Solve(CHOLMOD_Lt, right_side);
-  }
-
-  // Supernodes are dense columns of rows that they share: rows s[pi[k]...] and values from px[k].
-  Eigen::MatrixXd TrailingFactor() const {
-    const int first = static_cast<int>(factor->n) - num_trailing_rows;
-    Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(num_trailing_rows, num_trailing_rows);
-    const int* super = static_cast<const int*>(factor->super);
-    const int* pi = static_cast<const int*>(factor->pi);
-    const int* px = static_cast<const int*>(factor->px);
-    const int* rows = static_cast<const int*>(factor->s);
-    const double* values = static_cast<const double*>(factor->x);
-    for (int k = static_cast<int>(factor->nsuper) - 1; k >= 0 && super[k + 1] > first; --k) {
-      const int num_rows = pi[k + 1] - pi[k];
-      for (int j = std::max(first, super[k]); j < super[k + 1]; ++j) {
-        const double* column =
-            values + px[k] + static_cast<std::ptrdiff_t>(j - super[k]) * num_rows;
-        for (int i = j - super[k]; i < num_rows; ++i) {
-          trailing(rows[pi[k] + i] - first, j - first) = column[i];
-        }
+void BlockCholesky::Impl::TakePieces(const FrontLayout& front, const double* values) {
+  double* panel = &panels[front.panel];
+  for (int p = front.first_piece; p < front.last_piece; ++p) {
+    const PanelPiece& piece = layout.pieces[p];
+    const double* from = values + piece.value;
+    double* to = panel + static_cast<std::ptrdiff_t>(piece.panel_column) * front.panel_stride +
+                 piece.panel_row;
+    for (int c = 0; c < piece.columns; ++c, to += front.panel_stride) {
+      if (piece.transposed) {
+        for (int r = 0; r < piece.rows; ++r) to[r] = from[r * piece.stride + c];
+      } else {
+        for (int r = 0; r < piece.rows; ++r) to[r] = from[c * piece.stride + r];
       }
     }
-    return trailing;
   }
-
-  Eigen::VectorXd Solve(int system, const Eigen::VectorXd& right_side) {
-    structure.ToOrdered(right_side, rhs.data());
-    cholmod_dense b{};
-    b.nrow = rhs.size();
-    b.ncol = 1;
-    b.nzmax = rhs.size();
-    b.d = rhs.size();
-    b.x = rhs.data();
-    b.xtype = CHOLMOD_REAL;
-    b.dtype = CHOLMOD_DOUBLE;
-    cholmod_dense* x = cholmod_solve(system, factor, &b, &common);
-    CHECK(x != nullptr) << "CHOLMOD status " << common.status;
-    Eigen::VectorXd solution;
-    structure.FromOrdered(static_cast<const double*>(x->x), &solution);
-    cholmod_free_dense(&x, &common);
-    return solution;
+  for (int c = 0; c < front.width; ++c) {
+    panel[static_cast<std::ptrdiff_t>(c) * front.panel_stride + c] +=
+        ordered[front.first_position + c];
   }
+}
 
-  cholmod_common common;
-  bool started;
-  OrderedStructure structure;
-  SparseMatrix matrix;
-  int num_trailing_rows;
-  Eigen::VectorXd rhs;
-  cholmod_factor* factor = nullptr;
-};
-
-#else
-
-struct BlockCholesky::Impl {
-  Impl(const BlockStructure& block_structure, int num_trailing)
-      : structure(block_structure, FillReducingOrder(block_structure, num_trailing)),
-        matrix(ScalarPattern(structure.ordered())),
-        num_trailing_rows(NumTrailingRows(block_structure, num_trailing)),
-        rhs(matrix.rows()) {
-    factor.analyzePattern(matrix);
+// What a child's update has for the columns of its parent.
+void BlockCholesky::Impl::TakeColumns(const FrontLayout& front, const FrontLayout& child) {
+  for (const RowRun& columns : child.to_columns) {
+    for (int c = 0; c < columns.length; ++c) {
+      const int column = columns.from + c;
+      const double* from =
+          &updates[child.update] + static_cast<std::ptrdiff_t>(column) * child.update_stride;
+      double* to =
+          &panels[front.panel] + static_cast<std::ptrdiff_t>(columns.to + c) * front.panel_stride;
+      AddRuns(child.to_columns, column, from, to);
+      AddRuns(child.to_update, column, from, to + front.below_row);
+    }
   }
+}
 
-  // The trailing blocks behind the others.
-  static std::vector<int> FillReducingOrder(const BlockStructure& block_structure,
-                                            int num_trailing) {
-    const SparseMatrix graph =
-        LeadingGraph(block_structure, block_structure.num_blocks() - num_trailing);
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> order(graph.cols());
-    if (graph.cols() > 0) Eigen::AMDOrdering<int>()(graph.selfadjointView<Eigen::Lower>(), order);
-    std::vector<int> blocks(order.indices().data(), order.indices().data() + graph.cols());
-    AppendTrailing(block_structure, &blocks);
-    return blocks;
+// What it has for the parent's own update.
+void BlockCholesky::Impl::TakeUpdate(const FrontLayout& front, const FrontLayout& child) {
+  for (const RowRun& columns : child.to_update) {
+    for (int c = 0; c < columns.length; ++c) {
+      const int column = columns.from + c;
+      AddRuns(child.to_update,
+              column,
+              &updates[child.update] + static_cast<std::ptrdiff_t>(column) * child.update_stride,
+              &updates[front.update] +
+                  static_cast<std::ptrdiff_t>(columns.to + c) * front.update_stride);
+    }
   }
+}
 
-  bool Factorize(const double* values, const Eigen::VectorXd& diagonal) {
-    structure.FillValues(values, diagonal, matrix.valuePtr());
-    factor.factorize(matrix);
-    return factor.info() == Eigen::Success;
+void BlockCholesky::Impl::MakeUpdate(const FrontLayout& front, int num_threads) {
+  const int rows = front.padded_update_rows;
+  const double* L21 = &panels[front.panel] + front.below_row;
+  const auto make = [&](int first, int last) {
+    SubtractOuterProduct(front.width,
+                         rows,
+                         L21,
+                         front.panel_stride,
+                         first,
+                         last,
+                         &updates[front.update],
+                         front.update_stride);
+  };
+  if (num_threads <= 1 || 0.5 * front.width * rows * double(rows) < kParallelUpdate) {
+    make(0, rows);
+    return;
   }
+  // Short strips, for columns get shorter from left to right.
+  const int num_strips = rows / kRowUnit;
+  std::atomic<int> next{0};
+  ParallelFor(num_threads, num_threads, [&](int, int) {
+    constexpr int kStrips = 4;
+    for (int s = next.fetch_add(kStrips); s < num_strips; s = next.fetch_add(kStrips)) {
+      make(s * kRowUnit, std::min(num_strips, s + kStrips) * kRowUnit);
+    }
+  });
+}
 
-  Eigen::VectorXd Solve(const Eigen::VectorXd& right_side) {
-    structure.ToOrdered(right_side, rhs.data());
-    return FromOrdered(factor.solve(rhs));
+bool BlockCholesky::Impl::FactorizeFront(int f, const double* values, int num_threads) {
+  const FrontLayout& front = layout.fronts[f];
+  double* panel = &panels[front.panel];
+  std::fill_n(panel, static_cast<std::size_t>(front.panel_stride) * front.width, 0.0);
+  TakePieces(front, values);
+  for (const int child : front.children) TakeColumns(front, layout.fronts[child]);
+  if (!FactorizePanel(
+          front.width, front.below_row + front.padded_update_rows, front.panel_stride, panel)) {
+    return false;
   }
-  Eigen::VectorXd SolveLower(const Eigen::VectorXd& right_side) {
-    structure.ToOrdered(right_side, rhs.data());
-    return FromOrdered(factor.matrixL().solve(rhs));
-  }
-  Eigen::VectorXd SolveUpper(const Eigen::VectorXd& right_side) {
-    structure.ToOrdered(right_side, rhs.data());
-    return FromOrdered(factor.matrixU().solve(rhs));
-  }
+  if (front.update_rows == 0) return true;
+  MakeUpdate(front, num_threads);
+  for (const int child : front.children) TakeUpdate(front, layout.fronts[child]);
+  return true;
+}
 
-  Eigen::VectorXd FromOrdered(const Eigen::VectorXd& ordered) const {
-    Eigen::VectorXd rows;
-    structure.FromOrdered(ordered.data(), &rows);
-    return rows;
+bool BlockCholesky::Impl::Factorize(const double* values,
+                                    const Eigen::VectorXd& diagonal,
+                                    int num_threads) {
+  ToOrdered(diagonal);
+  const int num_tasks = static_cast<int>(layout.tasks.size());
+  std::atomic<bool> ok{true};
+  std::atomic<int> next{0};
+  ParallelFor(std::min(num_threads, num_tasks), std::min(num_threads, num_tasks), [&](int, int) {
+    for (int t = next++; t < num_tasks && ok; t = next++) {
+      for (int f = layout.tasks[t].first; f < layout.tasks[t].last && ok; ++f) {
+        if (!FactorizeFront(f, values, 1)) ok = false;
+      }
+    }
+  });
+  int task = 0;
+  for (int f = 0; f < static_cast<int>(layout.fronts.size()) && ok; ++f) {
+    if (task < num_tasks && layout.tasks[task].first == f) {
+      f = layout.tasks[task++].last - 1;
+      continue;
+    }
+    if (!FactorizeFront(f, values, num_threads)) ok = false;
   }
+  return ok;
+}
 
-  Eigen::MatrixXd TrailingFactor() const {
-    const SparseMatrix L = factor.matrixL();
-    return Eigen::MatrixXd(L.bottomRightCorner(num_trailing_rows, num_trailing_rows));
+void BlockCholesky::Impl::ToOrdered(const Eigen::VectorXd& rows) {
+  for (int v = 0; v < vertices.size(); ++v) {
+    const BlockVertex& vertex = vertices[v];
+    std::copy_n(rows.data() + structure.row_offset(vertex.block) + vertex.offset,
+                vertex.size,
+                ordered.data() + layout.positions[v]);
   }
+}
 
-  OrderedStructure structure;
-  SparseMatrix matrix;
-  int num_trailing_rows;
-  Eigen::VectorXd rhs;
-  // The matrix is in its final order.
-  Eigen::SimplicialLLT<SparseMatrix, Eigen::Lower, Eigen::NaturalOrdering<int>> factor;
-};
+Eigen::VectorXd BlockCholesky::Impl::FromOrdered() const {
+  Eigen::VectorXd rows(structure.num_rows());
+  for (int v = 0; v < vertices.size(); ++v) {
+    const BlockVertex& vertex = vertices[v];
+    std::copy_n(ordered.data() + layout.positions[v],
+                vertex.size,
+                rows.data() + structure.row_offset(vertex.block) + vertex.offset);
+  }
+  return rows;
+}
 
-#endif
+void BlockCholesky::Impl::SolveForward() {
+  for (const FrontLayout& front : layout.fronts) {
+    const double* panel = &panels[front.panel];
+    double* x = ordered.data() + front.first_position;
+    for (int c = 0; c < front.width; ++c) {
+      const double* column = panel + static_cast<std::ptrdiff_t>(c) * front.panel_stride;
+      x[c] /= column[c];
+      for (int r = c + 1; r < front.width; ++r) x[r] -= column[r] * x[c];
+    }
+    if (front.update_rows == 0) continue;
+    below.head(front.padded_update_rows).setZero();
+    SubtractProduct(front.width,
+                    front.padded_update_rows,
+                    panel + front.below_row,
+                    front.panel_stride,
+                    x,
+                    below.data());
+    for (const RowRun& run : front.below) {
+      for (int i = 0; i < run.length; ++i) ordered[run.to + i] += below[run.from + i];
+    }
+  }
+}
+
+void BlockCholesky::Impl::SolveBackward() {
+  for (auto front = layout.fronts.rbegin(); front != layout.fronts.rend(); ++front) {
+    const double* panel = &panels[front->panel];
+    double* x = ordered.data() + front->first_position;
+    if (front->update_rows > 0) {
+      below.head(front->padded_update_rows).setZero();
+      for (const RowRun& run : front->below) {
+        for (int i = 0; i < run.length; ++i) below[run.from + i] = ordered[run.to + i];
+      }
+      SubtractTransposedProduct(front->width,
+                                front->padded_update_rows,
+                                panel + front->below_row,
+                                front->panel_stride,
+                                below.data(),
+                                x);
+    }
+    for (int c = front->width - 1; c >= 0; --c) {
+      const double* column = panel + static_cast<std::ptrdiff_t>(c) * front->panel_stride;
+      double sum = x[c];
+      for (int r = c + 1; r < front->width; ++r) sum -= column[r] * x[r];
+      x[c] = sum / column[c];
+    }
+  }
+}
+
+Eigen::MatrixXd BlockCholesky::Impl::TrailingFactor() const {
+  Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(num_trailing_rows, num_trailing_rows);
+  if (num_trailing_rows == 0) return trailing;
+  const FrontLayout& front = layout.fronts.back();
+  CHECK_EQ(front.width, num_trailing_rows);
+  for (int c = 0; c < front.width; ++c) {
+    const double* column =
+        &panels[front.panel] + static_cast<std::ptrdiff_t>(c) * front.panel_stride;
+    std::copy(column + c, column + front.width, &trailing(c, c));
+  }
+  return trailing;
+}
 
 BlockCholesky::BlockCholesky(const BlockStructure& structure, int num_trailing)
     : impl_(std::make_unique<Impl>(structure, num_trailing)) {}
 
 BlockCholesky::~BlockCholesky() = default;
 
-bool BlockCholesky::Factorize(const double* values, const Eigen::VectorXd& diagonal) {
-  return impl_->Factorize(values, diagonal);
+bool BlockCholesky::Factorize(const double* values,
+                              const Eigen::VectorXd& diagonal,
+                              int num_threads) {
+  return impl_->Factorize(values, diagonal, num_threads);
 }
 
-Eigen::VectorXd BlockCholesky::Solve(const Eigen::VectorXd& rhs) { return impl_->Solve(rhs); }
+Eigen::VectorXd BlockCholesky::Solve(const Eigen::VectorXd& rhs) {
+  impl_->ToOrdered(rhs);
+  impl_->SolveForward();
+  impl_->SolveBackward();
+  return impl_->FromOrdered();
+}
 
 Eigen::VectorXd BlockCholesky::SolveLower(const Eigen::VectorXd& rhs) {
-  return impl_->SolveLower(rhs);
+  impl_->ToOrdered(rhs);
+  impl_->SolveForward();
+  return impl_->FromOrdered();
 }
 
 Eigen::VectorXd BlockCholesky::SolveUpper(const Eigen::VectorXd& rhs) {
-  return impl_->SolveUpper(rhs);
+  impl_->ToOrdered(rhs);
+  impl_->SolveBackward();
+  return impl_->FromOrdered();
 }
 
 Eigen::MatrixXd BlockCholesky::TrailingFactor() const { return impl_->TrailingFactor(); }
+
+double BlockCholesky::NumOperations() const { return impl_->layout.operations; }
 
 }  // namespace ceres_ed

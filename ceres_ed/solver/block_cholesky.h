@@ -10,9 +10,10 @@
 
 namespace ceres_ed {
 
-// Factorises H + diag(d) = L L^T. Ordered on the block graph, which is an order of magnitude
-// smaller than the scalar one; CHOLMOD's supernodal factor where the library was built with it,
-// else Eigen's. One object serves one thread at a time.
+// Factorises H + diag(d) = L L^T, multifrontal. Ordered on the graph of the blocks, which is an
+// order of magnitude smaller than the scalar one. A node that shares with others nothing but
+// translations has its affine part eliminated ahead of all, so that three rows of it are left where
+// twelve would be. One object serves one thread at a time.
 class BlockCholesky {
  public:
   // Analyses `structure`, which must outlive this. Its last `num_trailing` blocks come last in the
@@ -23,8 +24,9 @@ class BlockCholesky {
   BlockCholesky& operator=(const BlockCholesky&) = delete;
 
   // `values` in the layout of the structure (of diagonal blocks the lower triangle counts),
-  // `diagonal` of num_rows() is added. False when the sum isn't positive definite.
-  bool Factorize(const double* values, const Eigen::VectorXd& diagonal);
+  // `diagonal` of num_rows() is added. False when the sum isn't positive definite. The same bits at
+  // any number of threads.
+  bool Factorize(const double* values, const Eigen::VectorXd& diagonal, int num_threads = 1);
 
   // The solution for `rhs` of num_rows(), with the last successful factor.
   Eigen::VectorXd Solve(const Eigen::VectorXd& rhs);
@@ -37,6 +39,9 @@ class BlockCholesky {
   // The rows and columns of L that belong to the trailing blocks: the Cholesky factor of their
   // Schur complement (Eq. 20). Lower triangle, zeros above it.
   Eigen::MatrixXd TrailingFactor() const;
+
+  // Multiplications that one factorisation takes.
+  double NumOperations() const;
 
  private:
   struct Impl;

@@ -1,0 +1,52 @@
+// The symbolic part of a multifrontal Cholesky factorisation.
+#ifndef CERES_ED_SOLVER_FRONT_TREE_H_
+#define CERES_ED_SOLVER_FRONT_TREE_H_
+
+#include <vector>
+
+namespace ceres_ed {
+
+// A symmetric graph of vertices that each stand for some scalar rows.
+struct RowGraph {
+  // Scalar rows of each vertex.
+  std::vector<int> sizes;
+  // Neighbours of vertex v: neighbors[begins[v]] to neighbors[begins[v + 1]], in any order, without
+  // itself and without repetition.
+  std::vector<int> begins;
+  std::vector<int> neighbors;
+
+  int num_vertices() const { return static_cast<int>(sizes.size()); }
+};
+
+// An order of elimination with little fill: vertices of `first` come first (no two of them may be
+// neighbours), the last `num_trailing` vertices last and as they stand, the others by minimum
+// degree. `first` has one entry a vertex.
+std::vector<int> FillReducingOrder(const RowGraph& graph,
+                                   const std::vector<char>& first,
+                                   int num_trailing);
+
+// A dense front: the vertices that it eliminates, and those that they leave an update on.
+struct Front {
+  std::vector<int> columns;
+  // In the order of elimination.
+  std::vector<int> below;
+  // Scalar rows of both.
+  int width = 0;
+  int height = 0;
+  // A later front that eliminates the first of `below`; -1 where there is none.
+  int parent = -1;
+};
+
+// The fronts that eliminate `graph` in `order`, up to an equivalent order: children come ahead of
+// their parents, each subtree without a gap. Vertices share a front where that takes less time than
+// two. The last `num_trailing` vertices of `order` share one front, as they stand there.
+std::vector<Front> BuildFronts(const RowGraph& graph,
+                               const std::vector<int>& order,
+                               int num_trailing);
+
+// Multiplications and additions that a front takes.
+double FrontOperations(int width, int height);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SOLVER_FRONT_TREE_H_
