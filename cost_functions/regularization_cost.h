@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <ceres/autodiff_cost_function.h>
+#include <ceres/cost_function.h>
 #include <cost_functions/node_parameters.h>
+#include <cost_functions/warp.h>
+#include <cost_functions/warped_point_cost.h>
 
 namespace ceres_ed {
 
@@ -31,14 +33,31 @@ class RegularizationCost {
     return true;
   }
 
+  // It is a point functor on an affine combination of the two nodes, of which the second has no
+  // offset: its Jacobian costs next to nothing, and solvers know that A_k does not enter.
   static ceres::CostFunction* Create(const Eigen::Vector3d& g_j,
                                      const Eigen::Vector3d& g_k,
                                      double alpha_jk) {
-    return new ceres::AutoDiffCostFunction<RegularizationCost, kNumResiduals, kNodeSize, kNodeSize>(
-        new RegularizationCost(g_j, g_k, alpha_jk));
+    const RegularizationCost cost(g_j, g_k, alpha_jk);
+    const double weights[] = {1.0, -1.0};
+    const Eigen::Vector3d offsets[] = {cost.edge_, Eigen::Vector3d::Zero()};
+    return new WarpedPointCost<Scaled>(
+        Scaled{cost.sqrt_alpha_jk_}, BoundPoint(2, weights, offsets, -cost.edge_), false);
   }
 
  private:
+  struct Scaled {
+    static constexpr int kNumResiduals = 3;
+
+    template <typename T>
+    bool operator()(const T* point, T* residuals) const {
+      for (int i = 0; i < 3; ++i) residuals[i] = T(sqrt_alpha_jk) * point[i];
+      return true;
+    }
+
+    double sqrt_alpha_jk;
+  };
+
   double sqrt_alpha_jk_;
   Eigen::Vector3d edge_;
 };

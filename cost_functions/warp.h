@@ -10,7 +10,8 @@
 
 namespace ceres_ed {
 
-// A point v_i and the nodes that carry it, with all that is constant in Eq. 1 worked out.
+// An affine combination of nodes, sum_i w_i [A_i o_i + t_i] + anchor: a point v and the nodes that
+// carry it, with all that is constant in Eq. 1 worked out, or any other.
 class BoundPoint {
  public:
   // `node_positions[i]` is g of the i-th of `num_nodes` nodes (1 to kMaxBoundNodes) and
@@ -26,6 +27,18 @@ class BoundPoint {
       weights_[i] = weights[i];
       offsets_[i] = point - g;
       anchor_ += weights[i] * g;
+    }
+  }
+
+  // Any weights, offsets o_i and anchor; lengths in map units.
+  BoundPoint(int num_nodes,
+             const double* weights,
+             const Eigen::Vector3d* offsets,
+             const Eigen::Vector3d& anchor)
+      : num_nodes_(num_nodes), anchor_(anchor) {
+    for (int i = 0; i < num_nodes; ++i) {
+      weights_[i] = weights[i];
+      offsets_[i] = offsets[i];
     }
   }
 

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include <glog/logging.h>
 
@@ -172,19 +171,15 @@ void BlockLevelSolver::UpdateStructure(const ProblemConfig& config, NormalEquati
   const bool same_unknowns =
       structure_ != nullptr && variable_nodes_ == config.variable_nodes && sizes_ == sizes;
   if (same_unknowns && equations->SetStructure(structure_.get())) return;
-  const std::vector<std::pair<int, int>> pairs = equations->BlockPairs();
-  std::vector<std::pair<int, int>> joined = pairs;
-  if (same_unknowns) {
-    joined.clear();
-    std::set_union(
-        pairs_.begin(), pairs_.end(), pairs.begin(), pairs.end(), std::back_inserter(joined));
-  }
+  if (!same_unknowns) pairs_.clear();
+  const std::vector<BlockPair> pairs = equations->BlockPairs();
+  pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
   variable_nodes_ = config.variable_nodes;
   sizes_ = sizes;
-  pairs_ = std::move(joined);
   // The factor refers to the structure: it goes first.
   cholesky_.reset();
   structure_ = std::make_unique<BlockStructure>(sizes_, pairs_);
+  pairs_ = structure_->Pairs();
   cholesky_ = std::make_unique<BlockCholesky>(*structure_);
   CHECK(equations->SetStructure(structure_.get()));
 }

@@ -31,7 +31,7 @@ class BlockLevelSolver final : public LevelSolver {
 
   std::vector<char> variable_nodes_;
   std::vector<int> sizes_;
-  std::vector<std::pair<int, int>> pairs_;
+  std::vector<BlockPair> pairs_;
   std::unique_ptr<BlockStructure> structure_;
   std::unique_ptr<BlockCholesky> cholesky_;
 };

@@ -1,28 +1,60 @@
 #include "ceres_ed/solver/block_structure.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace ceres_ed {
+namespace {
 
-BlockStructure::BlockStructure(std::vector<int> sizes,
-                               const std::vector<std::pair<int, int>>& pairs)
+// Sorts stably by `key`, which is in [0, num_keys).
+template <typename Key>
+std::vector<BlockPair> CountingSort(const std::vector<BlockPair>& pairs, int num_keys, Key key) {
+  std::vector<int> next(num_keys + 1, 0);
+  for (const BlockPair& pair : pairs) ++next[key(pair) + 1];
+  for (int k = 0; k < num_keys; ++k) next[k + 1] += next[k];
+  std::vector<BlockPair> sorted(pairs.size());
+  for (const BlockPair& pair : pairs) sorted[next[key(pair)]++] = pair;
+  return sorted;
+}
+
+// The lower triangle with its diagonal, by column and then row, each entry once.
+std::vector<BlockPair> SortedEntries(int num_blocks, const std::vector<BlockPair>& pairs) {
+  std::vector<BlockPair> all;
+  all.reserve(pairs.size() + num_blocks);
+  for (int i = 0; i < num_blocks; ++i) all.push_back({i, i, true});
+  for (const auto& [a, b, affine_pair] : pairs) {
+    all.push_back({std::max(a, b), std::min(a, b), affine_pair});
+  }
+  all = CountingSort(all, num_blocks, [](const BlockPair& pair) { return pair.row; });
+  all = CountingSort(all, num_blocks, [](const BlockPair& pair) { return pair.column; });
+  std::size_t size = 0;
+  for (const BlockPair& pair : all) {
+    if (size > 0 && all[size - 1].row == pair.row && all[size - 1].column == pair.column) {
+      all[size - 1].affine_pair |= pair.affine_pair;
+    } else {
+      all[size++] = pair;
+    }
+  }
+  all.resize(size);
+  return all;
+}
+
+}  // namespace
+
+BlockStructure::BlockStructure(std::vector<int> sizes, const std::vector<BlockPair>& pairs)
     : sizes_(std::move(sizes)) {
+  row_offsets_.reserve(sizes_.size() + 1);
   row_offsets_.push_back(0);
   for (const int size : sizes_) row_offsets_.push_back(row_offsets_.back() + size);
-  // (column, row) in the lower triangle, so that sorting gives the order of storage.
-  std::vector<std::pair<int, int>> entries;
-  entries.reserve(pairs.size() + sizes_.size());
-  for (int i = 0; i < num_blocks(); ++i) entries.emplace_back(i, i);
-  for (const auto& [a, b] : pairs) entries.emplace_back(std::min(a, b), std::max(a, b));
-  std::sort(entries.begin(), entries.end());
-  entries.erase(std::unique(entries.begin(), entries.end()), entries.end());
+  const std::vector<BlockPair> entries = SortedEntries(num_blocks(), pairs);
   column_begins_.assign(num_blocks() + 1, 0);
   value_offsets_.push_back(0);
-  for (const auto& [column, row] : entries) {
-    entry_rows_.push_back(row);
-    ++column_begins_[column + 1];
+  for (const BlockPair& entry : entries) {
+    entry_rows_.push_back(entry.row);
+    affine_pairs_.push_back(entry.affine_pair ? 1 : 0);
+    ++column_begins_[entry.column + 1];
     value_offsets_.push_back(value_offsets_.back() +
-                             static_cast<std::size_t>(sizes_[row]) * sizes_[column]);
+                             static_cast<std::size_t>(sizes_[entry.row]) * sizes_[entry.column]);
   }
   for (int j = 0; j < num_blocks(); ++j) column_begins_[j + 1] += column_begins_[j];
 }
@@ -32,6 +64,17 @@ int BlockStructure::FindEntry(int row, int column) const {
   const auto end = entry_rows_.begin() + column_begins_[column + 1];
   const auto found = std::lower_bound(begin, end, row);
   return found != end && *found == row ? static_cast<int>(found - entry_rows_.begin()) : -1;
+}
+
+std::vector<BlockPair> BlockStructure::Pairs() const {
+  std::vector<BlockPair> pairs;
+  pairs.reserve(num_entries() - num_blocks());
+  for (int j = 0; j < num_blocks(); ++j) {
+    for (int e = column_begin(j) + 1; e < column_begin(j + 1); ++e) {
+      pairs.push_back({entry_row(e), j, affine_pair(e)});
+    }
+  }
+  return pairs;
 }
 
 Eigen::VectorXd BlockStructure::Diagonal(const std::vector<double>& values) const {

@@ -3,20 +3,33 @@
 #define CERES_ED_SOLVER_BLOCK_STRUCTURE_H_
 
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace ceres_ed {
 
+// Two blocks whose product may be non-zero.
+struct BlockPair {
+  int row = 0;
+  int column = 0;
+  // Whether the part of the affine parameters of both nodes (the first 9 of 12 each) may be
+  // non-zero. False where they share residuals in which one of them is but translated. Only ever
+  // false between nodes.
+  bool affine_pair = true;
+
+  bool operator==(const BlockPair& other) const {
+    return row == other.row && column == other.column && affine_pair == other.affine_pair;
+  }
+};
+
 // The sparsity of a symmetric matrix of blocks, lower triangle, column by column. The diagonal
 // blocks are always there and come first in their columns.
 class BlockStructure {
  public:
-  // `sizes[i]` rows of block i. `pairs` (row, column) of blocks that may be non-zero: any order,
-  // any triangle, repeated or not.
-  BlockStructure(std::vector<int> sizes, const std::vector<std::pair<int, int>>& pairs);
+  // `sizes[i]` rows of block i. `pairs` of blocks that may be non-zero: any order, any triangle,
+  // repeated or not.
+  BlockStructure(std::vector<int> sizes, const std::vector<BlockPair>& pairs);
 
   int num_blocks() const { return static_cast<int>(sizes_.size()); }
   int size(int block) const { return sizes_[block]; }
@@ -28,12 +41,17 @@ class BlockStructure {
   int column_begin(int column) const { return column_begins_[column]; }
   int num_entries() const { return static_cast<int>(entry_rows_.size()); }
   int entry_row(int entry) const { return entry_rows_[entry]; }
+  // BlockPair::affine_pair; true of diagonal blocks.
+  bool affine_pair(int entry) const { return affine_pairs_[entry] != 0; }
   // Where the values of an entry start; they are column-major, size(row) x size(column).
   std::size_t value_offset(int entry) const { return value_offsets_[entry]; }
   std::size_t num_values() const { return value_offsets_.back(); }
 
   // The entry of (row, column), row >= column; -1 when it isn't there.
   int FindEntry(int row, int column) const;
+
+  // All entries below the diagonal, column by column.
+  std::vector<BlockPair> Pairs() const;
 
   // The scalar diagonal of a matrix of this structure.
   Eigen::VectorXd Diagonal(const std::vector<double>& values) const;
@@ -43,6 +61,7 @@ class BlockStructure {
   std::vector<int> row_offsets_;
   std::vector<int> column_begins_;
   std::vector<int> entry_rows_;
+  std::vector<char> affine_pairs_;
   std::vector<std::size_t> value_offsets_;
 };
 

@@ -113,7 +113,7 @@ class Marginalization {
   std::vector<int> eliminated_;
   std::vector<int> seam_;
   std::unique_ptr<NormalEquations> equations_;
-  std::vector<std::pair<int, int>> pairs_;
+  std::vector<BlockPair> pairs_;
   std::vector<Weighing> weighings_;
   std::unique_ptr<BlockStructure> structure_;
   // Solving uses its work space.

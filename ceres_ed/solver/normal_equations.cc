@@ -152,6 +152,7 @@ void NormalEquations::AddItem(const SelectedResidual& residual,
     if (block.kind == BlockRef::Kind::kNode) {
       part.block = block_of_node[block.node];
       part.width = part.block >= 0 ? kNodeSize : 0;
+      part.affine = item.point == nullptr || !item.point->point().offset(i).isZero(0.0);
     } else {
       part.block = camera_variable_ ? num_variable_nodes() : -1;
       part.offset = block.kind == BlockRef::Kind::kCameraRotation ? 0 : kRotationTangent;
@@ -172,21 +173,18 @@ std::vector<int> NormalEquations::BlockSizes() const {
   return sizes;
 }
 
-std::vector<std::pair<int, int>> NormalEquations::BlockPairs() const {
-  std::vector<std::pair<int, int>> pairs;
+std::vector<BlockPair> NormalEquations::BlockPairs() const {
+  std::vector<BlockPair> pairs;
   for (const Item& item : items_) {
+    const Part* parts = &parts_[item.first_part];
     for (int a = 0; a < item.num_parts; ++a) {
-      const int row = parts_[item.first_part + a].block;
       for (int b = 0; b < a; ++b) {
-        const int column = parts_[item.first_part + b].block;
-        if (row < 0 || column < 0 || row == column) continue;
-        pairs.emplace_back(std::max(row, column), std::min(row, column));
+        if (parts[a].block < 0 || parts[b].block < 0 || parts[a].block == parts[b].block) continue;
+        pairs.push_back({parts[a].block, parts[b].block, parts[a].affine && parts[b].affine});
       }
     }
   }
-  std::sort(pairs.begin(), pairs.end());
-  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-  return pairs;
+  return BlockStructure(BlockSizes(), pairs).Pairs();
 }
 
 bool NormalEquations::SetStructure(const BlockStructure* structure) {
@@ -194,14 +192,16 @@ bool NormalEquations::SetStructure(const BlockStructure* structure) {
   entries_.clear();
   for (Item& item : items_) {
     item.first_entry = static_cast<int>(entries_.size());
+    const Part* parts = &parts_[item.first_part];
     for (int a = 0; a < item.num_parts; ++a) {
-      const int row = parts_[item.first_part + a].block;
       for (int b = 0; b <= a; ++b) {
-        const int column = parts_[item.first_part + b].block;
-        const bool held = row < 0 || column < 0;
-        entries_.push_back(
-            held ? -1 : structure->FindEntry(std::max(row, column), std::min(row, column)));
-        if (!held && entries_.back() < 0) return false;
+        const int row = std::max(parts[a].block, parts[b].block);
+        const int column = std::min(parts[a].block, parts[b].block);
+        entries_.push_back(column < 0 ? -1 : structure->FindEntry(row, column));
+        if (column < 0) continue;
+        const int entry = entries_.back();
+        const bool affine = parts[a].affine && parts[b].affine;
+        if (entry < 0 || (affine && !structure->affine_pair(entry))) return false;
       }
     }
   }

@@ -7,7 +7,6 @@
 #include <ceres_ed/solver/point_linearization.h>
 
 #include <memory>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -33,11 +32,11 @@ class NormalEquations {
   bool camera_variable() const { return camera_variable_; }
   // Rows of each block.
   std::vector<int> BlockSizes() const;
-  // Pairs of blocks that share a residual, sorted and without repetition.
-  std::vector<std::pair<int, int>> BlockPairs() const;
+  // Pairs of blocks that share a residual, by column and then row, without repetition.
+  std::vector<BlockPair> BlockPairs() const;
 
   // Fixes where each residual's products go. `structure` outlives this. False, and nothing is
-  // fixed, when it lacks one of BlockPairs().
+  // fixed, when it lacks one of BlockPairs(), or the affine part of one.
   bool SetStructure(const BlockStructure* structure);
 
   // Writes cost = sum of rho(|r|^2) / 2, values = J^T J in the layout of the structure (diagonal
@@ -72,6 +71,8 @@ class NormalEquations {
     int offset = 0;
     int width = 0;
     int column = 0;
+    // Whether more than the translation of a node enters.
+    bool affine = true;
   };
   // A residual block, or all those on one warped point: these share their blocks, and the products
   // of their Jacobians are added up by the point before they are spread over the nodes.

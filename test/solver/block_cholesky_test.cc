@@ -1,7 +1,6 @@
 #include "ceres_ed/solver/block_cholesky.h"
 
 #include <random>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -15,7 +14,7 @@ TEST(BlockCholesky, SolvesWhatDenseCholeskySolves) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const std::vector<int> sizes = {12, 6, 12, 12, 6, 12, 12};
-  const std::vector<std::pair<int, int>> pairs = {
+  const std::vector<BlockPair> pairs = {
       {6, 0}, {1, 2}, {3, 1}, {5, 4}, {4, 5}, {6, 3}, {2, 0}, {0, 5}};
   const BlockStructure structure(sizes, pairs);
   std::vector<double> values(structure.num_values());
@@ -40,7 +39,7 @@ TEST(BlockCholesky, SolvesWhatDenseCholeskySolves) {
 TEST(BlockCholesky, EndsInTheFactorOfTheSchurComplementOfTheTrailingBlocks) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  const std::vector<std::pair<int, int>> pairs = {
+  const std::vector<BlockPair> pairs = {
       {6, 0}, {1, 2}, {3, 1}, {5, 4}, {6, 3}, {2, 0}, {0, 5}, {4, 3}};
   const BlockStructure structure({12, 6, 12, 12, 6, 12, 12}, pairs);
   std::vector<double> values(structure.num_values());

@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <ceres/crs_matrix.h>
 #include <gtest/gtest.h>
+#include <test/problem/strip_builder.h>
 #include <test/solver/dense_matrix.h>
 
 namespace ceres_ed {
@@ -118,6 +119,54 @@ TEST(NormalEquations, AgreeWithCeres) {
       }
     }
   }
+}
+
+// Of 6 x 3 nodes the first two columns of cells are seen: their nodes share points. All others
+// share edges alone.
+TEST(NormalEquations, KnowWhichPairsShareTranslationsAlone) {
+  TestProblemOptions options;
+  options.observed_columns = 2;
+  const StripBuilder strip(options);
+  NormalEquations equations(strip.builder, FullConfig(18, false));
+  const BlockStructure structure(equations.BlockSizes(), equations.BlockPairs());
+  ASSERT_TRUE(equations.SetStructure(&structure));
+  double cost = 0.0;
+  std::vector<double> values;
+  Eigen::VectorXd gradient;
+  const DeformationState state = RandomState(strip.problem, 0.1, 5);
+  ASSERT_TRUE(equations.Evaluate(state, 1, &cost, &values, &gradient));
+  for (int j = 0; j < structure.num_blocks(); ++j) {
+    for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
+      const int row = structure.entry_row(e);
+      EXPECT_EQ(structure.affine_pair(e), row == j || row < 9) << row << ", " << j;
+      const Eigen::Map<const Eigen::Matrix<double, kNodeSize, kNodeSize>> block(
+          &values[structure.value_offset(e)]);
+      EXPECT_EQ((block.topLeftCorner<9, 9>().isZero(0.0)), !structure.affine_pair(e));
+      EXPECT_FALSE(block.isZero(0.0));
+    }
+  }
+}
+
+TEST(NormalEquations, RefuseAStructureThatLacksAnAffinePair) {
+  TestProblemOptions options;
+  options.observed_columns = 2;
+  const StripBuilder strip(options);
+  NormalEquations equations(strip.builder, FullConfig(18, false));
+  std::vector<BlockPair> pairs = equations.BlockPairs();
+  ASSERT_TRUE(pairs.front().affine_pair);
+  pairs.front().affine_pair = false;
+  const BlockStructure structure(equations.BlockSizes(), pairs);
+  EXPECT_FALSE(equations.SetStructure(&structure));
+}
+
+TEST(BlockStructure, JoinsRepeatedPairs) {
+  const BlockStructure structure(
+      {2, 3, 2}, {{0, 2, false}, {1, 0, false}, {2, 0, false}, {0, 1, true}, {2, 0, false}});
+  const std::vector<BlockPair> expected{{1, 0, true}, {2, 0, false}};
+  EXPECT_EQ(structure.Pairs(), expected);
+  EXPECT_EQ(structure.num_entries(), 5);
+  EXPECT_TRUE(structure.affine_pair(structure.FindEntry(2, 2)));
+  EXPECT_EQ(structure.num_values(), 4u + 6u + 4u + 9u + 4u);
 }
 
 TEST(NormalEquations, AreTheSameBitsOnAnyNumberOfThreads) {
