@@ -1,5 +1,6 @@
 #include "ceres_ed/solver/block_cholesky.h"
 
+#include <ceres_ed/solver/double_buffer.h>
 #include <ceres_ed/solver/front_kernels.h>
 #include <ceres_ed/solver/front_layout.h>
 #include <ceres_ed/util/parallel.h>
@@ -7,6 +8,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <glog/logging.h>
@@ -17,13 +19,31 @@ namespace {
 // Updates of fewer multiplications are not worth a second thread.
 constexpr double kParallelUpdate = 4e6;
 
+// A factor of fewer multiplications than this takes less time than a better order of it.
+constexpr double kSmallFactor = 5e8;
+
+double NumOperations(const std::vector<Front>& fronts) {
+  double operations = 0.0;
+  for (const Front& front : fronts) operations += FrontOperations(front.width, front.height);
+  return operations;
+}
+
 FactorLayout LayOut(const BlockStructure& structure,
                     const BlockVertices& vertices,
                     int num_trailing) {
   const std::vector<BlockPiece> pieces = vertices.Pieces(structure);
   const RowGraph graph = vertices.Graph(pieces);
-  const std::vector<int> order = FillReducingOrder(graph, vertices.is_affine(), num_trailing);
-  return LayOutFactor(vertices, pieces, BuildFronts(graph, order, num_trailing));
+  const auto fronts_by = [&](OrderingMethod method) {
+    const std::vector<int> order =
+        FillReducingOrder(graph, vertices.is_affine(), num_trailing, method);
+    return BuildFronts(graph, order, num_trailing);
+  };
+  std::vector<Front> fronts = fronts_by(OrderingMethod::kMinimumDegree);
+  if (HasNestedDissection() && NumOperations(fronts) > kSmallFactor) {
+    std::vector<Front> other = fronts_by(OrderingMethod::kNestedDissection);
+    if (NumOperations(other) < NumOperations(fronts)) fronts = std::move(other);
+  }
+  return LayOutFactor(vertices, pieces, fronts);
 }
 
 // Adds rows [begin, ...) of a column of a child's update to a column of its parent.
@@ -44,7 +64,8 @@ struct BlockCholesky::Impl {
         vertices(structure, trailing),
         layout(LayOut(structure, vertices, trailing)),
         panels(layout.panel_size),
-        updates(layout.update_size),
+        updates(layout.kept_size + layout.stack_size),
+        update_places(layout.fronts.size()),
         ordered(layout.num_rows),
         below(layout.max_update_rows) {}
 
@@ -54,6 +75,12 @@ struct BlockCholesky::Impl {
   void TakeColumns(const FrontLayout& front, const FrontLayout& child);
   void TakeUpdate(const FrontLayout& front, const FrontLayout& child);
   void MakeUpdate(const FrontLayout& front, int num_threads);
+
+  double* Panel(const FrontLayout& front) const { return panels.data() + front.panel; }
+  double* Update(const FrontLayout& front) const {
+    return update_places[&front - layout.fronts.data()];
+  }
+  void PlaceUpdate(int f, int thread);
 
   void ToOrdered(const Eigen::VectorXd& rows);
   Eigen::VectorXd FromOrdered() const;
@@ -65,8 +92,11 @@ struct BlockCholesky::Impl {
   const int num_trailing_rows;
   const BlockVertices vertices;
   const FactorLayout layout;
-  std::vector<double> panels;
-  std::vector<double> updates;
+  const DoubleBuffer panels;
+  // Those that outlive their task, then a stack of each thread.
+  DoubleBuffer updates;
+  // Of each front: where its update is.
+  std::vector<double*> update_places;
   // Rows in the order of elimination: what is added to the diagonal, then what is solved for.
   Eigen::VectorXd ordered;
   // Rows below a front's own.
@@ -74,7 +104,7 @@ struct BlockCholesky::Impl {
 };
 
 void BlockCholesky::Impl::TakePieces(const FrontLayout& front, const double* values) {
-  double* panel = &panels[front.panel];
+  double* panel = Panel(front);
   for (int p = front.first_piece; p < front.last_piece; ++p) {
     const PanelPiece& piece = layout.pieces[p];
     const double* from = values + piece.value;
@@ -100,9 +130,8 @@ void BlockCholesky::Impl::TakeColumns(const FrontLayout& front, const FrontLayou
     for (int c = 0; c < columns.length; ++c) {
       const int column = columns.from + c;
       const double* from =
-          &updates[child.update] + static_cast<std::ptrdiff_t>(column) * child.update_stride;
-      double* to =
-          &panels[front.panel] + static_cast<std::ptrdiff_t>(columns.to + c) * front.panel_stride;
+          Update(child) + static_cast<std::ptrdiff_t>(column) * child.update_stride;
+      double* to = Panel(front) + static_cast<std::ptrdiff_t>(columns.to + c) * front.panel_stride;
       AddRuns(child.to_columns, column, from, to);
       AddRuns(child.to_update, column, from, to + front.below_row);
     }
@@ -116,16 +145,15 @@ void BlockCholesky::Impl::TakeUpdate(const FrontLayout& front, const FrontLayout
       const int column = columns.from + c;
       AddRuns(child.to_update,
               column,
-              &updates[child.update] + static_cast<std::ptrdiff_t>(column) * child.update_stride,
-              &updates[front.update] +
-                  static_cast<std::ptrdiff_t>(columns.to + c) * front.update_stride);
+              Update(child) + static_cast<std::ptrdiff_t>(column) * child.update_stride,
+              Update(front) + static_cast<std::ptrdiff_t>(columns.to + c) * front.update_stride);
     }
   }
 }
 
 void BlockCholesky::Impl::MakeUpdate(const FrontLayout& front, int num_threads) {
   const int rows = front.padded_update_rows;
-  const double* L21 = &panels[front.panel] + front.below_row;
+  const double* L21 = Panel(front) + front.below_row;
   const auto make = [&](int first, int last) {
     SubtractOuterProduct(front.width,
                          rows,
@@ -133,7 +161,7 @@ void BlockCholesky::Impl::MakeUpdate(const FrontLayout& front, int num_threads) 
                          front.panel_stride,
                          first,
                          last,
-                         &updates[front.update],
+                         Update(front),
                          front.update_stride);
   };
   if (num_threads <= 1 || 0.5 * front.width * rows * double(rows) < kParallelUpdate) {
@@ -153,7 +181,7 @@ void BlockCholesky::Impl::MakeUpdate(const FrontLayout& front, int num_threads) 
 
 bool BlockCholesky::Impl::FactorizeFront(int f, const double* values, int num_threads) {
   const FrontLayout& front = layout.fronts[f];
-  double* panel = &panels[front.panel];
+  double* panel = Panel(front);
   std::fill_n(panel, static_cast<std::size_t>(front.panel_stride) * front.width, 0.0);
   TakePieces(front, values);
   for (const int child : front.children) TakeColumns(front, layout.fronts[child]);
@@ -167,17 +195,29 @@ bool BlockCholesky::Impl::FactorizeFront(int f, const double* values, int num_th
   return true;
 }
 
+void BlockCholesky::Impl::PlaceUpdate(int f, int thread) {
+  const FrontLayout& front = layout.fronts[f];
+  update_places[f] = updates.data() + front.update;
+  if (!front.is_kept) update_places[f] += layout.kept_size + thread * layout.stack_size;
+}
+
 bool BlockCholesky::Impl::Factorize(const double* values,
                                     const Eigen::VectorXd& diagonal,
                                     int num_threads) {
   ToOrdered(diagonal);
   const int num_tasks = static_cast<int>(layout.tasks.size());
+  const int task_threads = std::max(1, std::min(num_threads, num_tasks));
+  const std::size_t update_size = layout.kept_size + task_threads * layout.stack_size;
+  if (update_size > updates.size()) updates = DoubleBuffer(update_size);
   std::atomic<bool> ok{true};
   std::atomic<int> next{0};
-  ParallelFor(std::min(num_threads, num_tasks), std::min(num_threads, num_tasks), [&](int, int) {
-    for (int t = next++; t < num_tasks && ok; t = next++) {
-      for (int f = layout.tasks[t].first; f < layout.tasks[t].last && ok; ++f) {
-        if (!FactorizeFront(f, values, 1)) ok = false;
+  ParallelFor(task_threads, task_threads, [&](int begin, int end) {
+    for (int thread = begin; thread < end; ++thread) {
+      for (int t = next++; t < num_tasks && ok; t = next++) {
+        for (int f = layout.tasks[t].first; f < layout.tasks[t].last && ok; ++f) {
+          PlaceUpdate(f, thread);
+          if (!FactorizeFront(f, values, 1)) ok = false;
+        }
       }
     }
   });
@@ -187,6 +227,7 @@ bool BlockCholesky::Impl::Factorize(const double* values,
       f = layout.tasks[task++].last - 1;
       continue;
     }
+    PlaceUpdate(f, 0);
     if (!FactorizeFront(f, values, num_threads)) ok = false;
   }
   return ok;
@@ -214,7 +255,7 @@ Eigen::VectorXd BlockCholesky::Impl::FromOrdered() const {
 
 void BlockCholesky::Impl::SolveForward() {
   for (const FrontLayout& front : layout.fronts) {
-    const double* panel = &panels[front.panel];
+    const double* panel = Panel(front);
     double* x = ordered.data() + front.first_position;
     for (int c = 0; c < front.width; ++c) {
       const double* column = panel + static_cast<std::ptrdiff_t>(c) * front.panel_stride;
@@ -237,7 +278,7 @@ void BlockCholesky::Impl::SolveForward() {
 
 void BlockCholesky::Impl::SolveBackward() {
   for (auto front = layout.fronts.rbegin(); front != layout.fronts.rend(); ++front) {
-    const double* panel = &panels[front->panel];
+    const double* panel = Panel(*front);
     double* x = ordered.data() + front->first_position;
     if (front->update_rows > 0) {
       below.head(front->padded_update_rows).setZero();
@@ -266,8 +307,7 @@ Eigen::MatrixXd BlockCholesky::Impl::TrailingFactor() const {
   const FrontLayout& front = layout.fronts.back();
   CHECK_EQ(front.width, num_trailing_rows);
   for (int c = 0; c < front.width; ++c) {
-    const double* column =
-        &panels[front.panel] + static_cast<std::ptrdiff_t>(c) * front.panel_stride;
+    const double* column = Panel(front) + static_cast<std::ptrdiff_t>(c) * front.panel_stride;
     std::copy(column + c, column + front.width, &trailing(c, c));
   }
   return trailing;

@@ -70,7 +70,7 @@ class Minimizer {
 Minimizer::Step Minimizer::TakeStep(bool last) {
   const double floor = std::max(kMinRelativeDiagonal * diagonal_.mean(), 1e-300);
   const Eigen::VectorXd damping = diagonal_.cwiseMax(floor) / radius_;
-  if (!cholesky_->Factorize(values_.data(), damping)) return Step::kInvalid;
+  if (!cholesky_->Factorize(values_.data(), damping, options_.num_threads)) return Step::kInvalid;
   const Eigen::VectorXd delta = cholesky_->Solve(-gradient_);
   if (!delta.allFinite()) return Step::kInvalid;
   const double model_decrease =

@@ -197,7 +197,6 @@ void Planner::PlaceUpdatesOf(const std::vector<int>& fronts) {
   }
   std::array<std::size_t, 2> top = {0, 0};
   std::array<std::size_t, 2> highest = {0, 0};
-  std::vector<int> kept;
   const auto size = [&](int f) {
     const FrontLayout& place = layout_.fronts[f];
     return static_cast<std::size_t>(place.update_stride) * place.padded_update_rows;
@@ -205,26 +204,21 @@ void Planner::PlaceUpdatesOf(const std::vector<int>& fronts) {
   for (const int f : fronts) {
     const int stack = parity[f];
     const int parent = fronts_[f].parent;
-    if (parent >= 0 && here[parent] == 0) {
-      kept.push_back(f);
-    } else {
-      layout_.fronts[f].update = top[stack];
-      top[stack] += size(f);
-      highest[stack] = std::max(highest[stack], top[stack]);
-    }
-    for (const int child : layout_.fronts[f].children) {
+    FrontLayout& place = layout_.fronts[f];
+    // What another task takes stays where nothing overwrites it.
+    place.is_kept = parent >= 0 && here[parent] == 0;
+    std::size_t& end = place.is_kept ? layout_.kept_size : top[stack];
+    place.update = end;
+    end += size(f);
+    highest[stack] = std::max(highest[stack], top[stack]);
+    for (const int child : place.children) {
       if (here[child] != 0) top[1 - stack] -= size(child);
     }
   }
   for (const int f : fronts) {
-    layout_.fronts[f].update += layout_.update_size + (parity[f] != 0 ? highest[0] : 0);
+    if (!layout_.fronts[f].is_kept && parity[f] != 0) layout_.fronts[f].update += highest[0];
   }
-  layout_.update_size += highest[0] + highest[1];
-  // What another task takes stays where nothing overwrites it.
-  for (const int f : kept) {
-    layout_.fronts[f].update = layout_.update_size;
-    layout_.update_size += size(f);
-  }
+  layout_.stack_size = std::max(layout_.stack_size, highest[0] + highest[1]);
 }
 
 void Planner::PlaceUpdates() {

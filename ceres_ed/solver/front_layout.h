@@ -28,7 +28,9 @@ struct FrontLayout {
   int panel_stride = 0;
   int update_stride = 0;
   std::size_t panel = 0;
+  // Among those that are kept, or on the stack of the thread at work.
   std::size_t update = 0;
+  bool is_kept = false;
   // Position of its first column in the order of elimination; the others follow.
   int first_position = 0;
   // Rows of the update: from there to positions in the order of elimination.
@@ -67,9 +69,11 @@ struct FactorLayout {
   // Position of each vertex's first row in the order of elimination.
   std::vector<int> positions;
   int num_rows = 0;
-  // Doubles of all panels, and of the place that updates share.
+  // Doubles of all panels, of the updates that outlive their task, and of the largest stack of the
+  // others.
   std::size_t panel_size = 0;
-  std::size_t update_size = 0;
+  std::size_t kept_size = 0;
+  std::size_t stack_size = 0;
   int max_update_rows = 0;
   double operations = 0.0;
 };

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
 #include <glog/logging.h>
 
 namespace ceres_ed {
@@ -15,46 +13,10 @@ namespace {
 constexpr double kFrontOverhead = 2e4;
 constexpr double kUpdateOverhead = 4.0;
 
-using Graph = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
-
 std::vector<int> PositionsOf(const std::vector<int>& order) {
   std::vector<int> positions(order.size());
   for (int k = 0; k < static_cast<int>(order.size()); ++k) positions[order[k]] = k;
   return positions;
-}
-
-// The graph on the vertices that `index` numbers (>= 0), as it is when all others with `first` have
-// been eliminated: these join their neighbours to each other.
-Graph Condensed(const RowGraph& graph,
-                const std::vector<char>& first,
-                const std::vector<int>& index,
-                int num_left) {
-  std::vector<int> begins = {0};
-  std::vector<int> rows;
-  std::vector<int> seen(graph.num_vertices(), -1);
-  const auto add = [&](int vertex, int neighbor) {
-    if (index[neighbor] < 0 || seen[neighbor] == vertex || neighbor == vertex) return;
-    seen[neighbor] = vertex;
-    rows.push_back(index[neighbor]);
-  };
-  for (int v = 0; v < graph.num_vertices(); ++v) {
-    if (index[v] < 0) continue;
-    for (int k = graph.begins[v]; k < graph.begins[v + 1]; ++k) {
-      const int u = graph.neighbors[k];
-      add(v, u);
-      if (first[u] == 0) continue;
-      for (int l = graph.begins[u]; l < graph.begins[u + 1]; ++l) add(v, graph.neighbors[l]);
-    }
-    std::sort(rows.begin() + begins.back(), rows.end());
-    begins.push_back(static_cast<int>(rows.size()));
-  }
-  const std::vector<double> ones(rows.size(), 1.0);
-  return Eigen::Map<const Graph>(num_left,
-                                 num_left,
-                                 static_cast<Eigen::Index>(rows.size()),
-                                 begins.data(),
-                                 rows.data(),
-                                 ones.data());
 }
 
 // Builds fronts bottom-up: one a vertex, merged with those below it where that pays.
@@ -226,34 +188,6 @@ double FrontOperations(int width, int height) {
   const double w = width;
   const double left = height - width;
   return w * w * w / 6.0 + 0.5 * w * w * left + 0.5 * w * left * left;
-}
-
-std::vector<int> FillReducingOrder(const RowGraph& graph,
-                                   const std::vector<char>& first,
-                                   int num_trailing) {
-  const int n = graph.num_vertices();
-  std::vector<int> order;
-  std::vector<int> index(n, -1);
-  std::vector<int> left;
-  for (int v = 0; v < n; ++v) {
-    if (v >= n - num_trailing) continue;
-    if (first[v] != 0) {
-      order.push_back(v);
-    } else {
-      index[v] = static_cast<int>(left.size());
-      left.push_back(v);
-    }
-  }
-  if (!left.empty()) {
-    const Graph condensed = Condensed(graph, first, index, static_cast<int>(left.size()));
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> permutation;
-    Eigen::AMDOrdering<int>()(condensed, permutation);
-    for (Eigen::Index k = 0; k < permutation.size(); ++k) {
-      order.push_back(left[permutation.indices()[k]]);
-    }
-  }
-  for (int v = n - num_trailing; v < n; ++v) order.push_back(v);
-  return order;
 }
 
 std::vector<Front> BuildFronts(const RowGraph& graph,

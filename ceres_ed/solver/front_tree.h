@@ -2,28 +2,11 @@
 #ifndef CERES_ED_SOLVER_FRONT_TREE_H_
 #define CERES_ED_SOLVER_FRONT_TREE_H_
 
+#include <ceres_ed/solver/elimination_order.h>
+
 #include <vector>
 
 namespace ceres_ed {
-
-// A symmetric graph of vertices that each stand for some scalar rows.
-struct RowGraph {
-  // Scalar rows of each vertex.
-  std::vector<int> sizes;
-  // Neighbours of vertex v: neighbors[begins[v]] to neighbors[begins[v + 1]], in any order, without
-  // itself and without repetition.
-  std::vector<int> begins;
-  std::vector<int> neighbors;
-
-  int num_vertices() const { return static_cast<int>(sizes.size()); }
-};
-
-// An order of elimination with little fill: vertices of `first` come first (no two of them may be
-// neighbours), the last `num_trailing` vertices last and as they stand, the others by minimum
-// degree. `first` has one entry a vertex.
-std::vector<int> FillReducingOrder(const RowGraph& graph,
-                                   const std::vector<char>& first,
-                                   int num_trailing);
 
 // A dense front: the vertices that it eliminates, and those that they leave an update on.
 struct Front {

@@ -1,5 +1,6 @@
 #include "ceres_ed/solver/block_cholesky.h"
 
+#include <algorithm>
 #include <random>
 #include <vector>
 
@@ -65,6 +66,97 @@ TEST(BlockCholesky, EndsInTheFactorOfTheSchurComplementOfTheTrailingBlocks) {
     EXPECT_LT((cholesky.SolveUpper(cholesky.SolveLower(b)) - expected).norm(),
               1e-12 * expected.norm());
   }
+}
+
+// Nodes on a grid of `columns` x `rows`, each joined to its 8 neighbours, and a camera that the
+// first column's nodes see. `share_points(a, b)` says whether the affine parts of two nodes are
+// coupled.
+template <typename SharePoints>
+BlockStructure Sheet(int columns, int rows, const SharePoints& share_points) {
+  std::vector<BlockPair> pairs;
+  const int camera = columns * rows;
+  for (int x = 0; x < columns; ++x) {
+    for (int y = 0; y < rows; ++y) {
+      const int node = x * rows + y;
+      if (x == 0) pairs.push_back({camera, node, true});
+      for (const auto& [dx, dy] :
+           {std::pair(0, 1), std::pair(1, -1), std::pair(1, 0), std::pair(1, 1)}) {
+        if (x + dx >= columns || y + dy < 0 || y + dy >= rows) continue;
+        const int other = (x + dx) * rows + y + dy;
+        pairs.push_back({node, other, share_points(node, other)});
+      }
+    }
+  }
+  std::vector<int> sizes(camera, 12);
+  sizes.push_back(6);
+  return BlockStructure(sizes, pairs);
+}
+
+// Random values, none where affine parts aren't coupled.
+std::vector<double> ValuesOf(const BlockStructure& structure) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<double> values(structure.num_values());
+  for (double& value : values) value = uniform(random);
+  for (int e = 0; e < structure.num_entries(); ++e) {
+    if (structure.affine_pair(e)) continue;
+    double* block = &values[structure.value_offset(e)];
+    for (int c = 0; c < 9; ++c) std::fill_n(block + 12 * c, 9, 0.0);
+  }
+  return values;
+}
+
+TEST(BlockCholesky, EliminatesLoneAffinePartsFirst) {
+  // The left half shares points: nodes of both kinds, and a seam between.
+  const auto left = [](int a, int b) { return a < 42 && b < 42; };
+  const BlockStructure mixed = Sheet(12, 7, left);
+  const BlockStructure whole = Sheet(12, 7, [](int, int) { return true; });
+  const std::vector<double> values = ValuesOf(mixed);
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(mixed.num_rows(), 60.0);
+  Eigen::MatrixXd dense = DenseOf(mixed, values);
+  dense.diagonal() += diagonal;
+  const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(mixed.num_rows(), -1.0, 2.0);
+  const Eigen::VectorXd expected = dense.llt().solve(rhs);
+  for (const BlockStructure* structure : {&mixed, &whole}) {
+    BlockCholesky cholesky(*structure);
+    ASSERT_TRUE(cholesky.Factorize(values.data(), diagonal));
+    EXPECT_LT((cholesky.Solve(rhs) - expected).norm(), 1e-12 * expected.norm());
+  }
+  const BlockStructure edges = Sheet(40, 40, [](int, int) { return false; });
+  const BlockStructure points = Sheet(40, 40, [](int, int) { return true; });
+  EXPECT_LT(BlockCholesky(edges).NumOperations(), 0.3 * BlockCholesky(points).NumOperations());
+}
+
+// Large enough for several tasks, for updates on several threads and for both orderings.
+TEST(BlockCholesky, GivesTheSameBitsOnAnyNumberOfThreads) {
+  const BlockStructure structure = Sheet(60, 30, [](int, int) { return true; });
+  const std::vector<double> values = ValuesOf(structure);
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(structure.num_rows(), 120.0);
+  const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(structure.num_rows(), -1.0, 2.0);
+  BlockCholesky serial(structure);
+  ASSERT_TRUE(serial.Factorize(values.data(), diagonal, 1));
+  const Eigen::VectorXd expected = serial.Solve(rhs);
+  for (const int num_threads : {2, 3}) {
+    BlockCholesky parallel(structure);
+    ASSERT_TRUE(parallel.Factorize(values.data(), diagonal, num_threads));
+    EXPECT_EQ(parallel.Solve(rhs), expected) << num_threads;
+  }
+  // The residual, by the block structure itself.
+  Eigen::VectorXd product = diagonal.cwiseProduct(expected);
+  for (int j = 0; j < structure.num_blocks(); ++j) {
+    for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
+      const int i = structure.entry_row(e);
+      Eigen::MatrixXd block = Eigen::Map<const Eigen::MatrixXd>(
+          &values[structure.value_offset(e)], structure.size(i), structure.size(j));
+      if (i == j) block = Eigen::MatrixXd(block.selfadjointView<Eigen::Lower>());
+      product.segment(structure.row_offset(i), structure.size(i)) +=
+          block * expected.segment(structure.row_offset(j), structure.size(j));
+      if (i == j) continue;
+      product.segment(structure.row_offset(j), structure.size(j)) +=
+          block.transpose() * expected.segment(structure.row_offset(i), structure.size(i));
+    }
+  }
+  EXPECT_LT((product - rhs).norm(), 1e-12 * rhs.norm());
 }
 
 TEST(BlockStructure, FindsWhatItHasAndNothingElse) {
