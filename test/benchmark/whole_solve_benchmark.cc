@@ -1,8 +1,8 @@
 // Level I of a window of 20 x 20 nodes, 300 of them PR, and a camera: the block solver, Ceres on
 // the same cost functions, and Ceres as its manual would have a new user do it ("Plain": auto-diff
 // by all 48 + 7 parameters that a point depends on, SPARSE_NORMAL_CHOLESKY, all options at their
-// defaults). Plain has OpenBLAS behind CHOLMOD where this library links it; left alone, Debian's
-// Ceres loads ATLAS.
+// defaults). All three have the BLAS of this library's build: OpenBLAS, where Ceres by itself takes
+// what the system has installed, which may be ATLAS or the reference BLAS, and slower.
 //
 // OneIteration has everything that a frame pays for a step: building, linearising, factorising.
 // WholeSolve goes from rest to convergence. Counters: accepted steps (Ceres takes back the last
