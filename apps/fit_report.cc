@@ -1,5 +1,6 @@
 #include "apps/fit_report.h"
 
+#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/version.h>
 
 #include <algorithm>
@@ -107,12 +108,6 @@ ordered_json TimeReport(const FitRun& run) {
           {"write", run.write_s}};
 }
 
-ordered_json WarningsReport(const FitRun& run) {
-  ordered_json warnings = run.files->warnings;
-  for (const std::string& warning : run.result->warnings) warnings.push_back(warning);
-  return warnings;
-}
-
 template <typename... Arguments>
 std::string Line(const char* format, Arguments... arguments) {
   char text[256];
@@ -121,6 +116,19 @@ std::string Line(const char* format, Arguments... arguments) {
 }
 
 }  // namespace
+
+std::vector<std::string> FitWarnings(const FitRun& run) {
+  std::vector<std::string> warnings = run.files->warnings;
+  warnings.insert(warnings.end(), run.result->warnings.begin(), run.result->warnings.end());
+  const FitOptions& options = run.settings->options;
+  BackendUse use;
+  use.ceres = options.strategy.linear_solver == LinearSolver::kCeres;
+  use.scalar = options.finish;
+  for (const std::string& warning : BackendWarnings(DescribeBackend(), use)) {
+    warnings.push_back(warning);
+  }
+  return warnings;
+}
 
 ordered_json FitReport(const FitRun& run) {
   const FitResult& result = *run.result;
@@ -148,7 +156,7 @@ ordered_json FitReport(const FitRun& run) {
       {"displacement", DisplacementReport(run)},
       {"time_s", TimeReport(run)},
       {"threads", run.settings->options.num_threads},
-      {"warnings", WarningsReport(run)},
+      {"warnings", FitWarnings(run)},
       {"flags", FlagsReport()},
       {"backend", BackendReport()}};
 }

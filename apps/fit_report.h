@@ -5,6 +5,7 @@
 #include <ceres_ed/registration/fit.h>
 
 #include <string>
+#include <vector>
 
 #include <apps/fit_files.h>
 #include <apps/fit_flags.h>
@@ -23,6 +24,9 @@ struct FitRun {
   double write_s = 0.0;
   double total_s = 0.0;
 };
+
+// Returns all warnings: of the inputs, of the fit, and of libraries that made it slow.
+std::vector<std::string> FitWarnings(const FitRun& run);
 
 // Returns the contents of report.json; lengths are in the target's unit, but for the diagonals.
 // "noise" is the standard deviation of the target's noise across its surface.

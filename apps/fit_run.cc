@@ -38,10 +38,8 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
 Outcome Conclude(FitRun run, const Timer& clock) {
   const FitSettings& settings = *run.settings;
   const FitResult& result = *run.result;
-  for (const auto* warnings : {&run.files->warnings, &result.warnings}) {
-    for (const std::string& warning : *warnings) {
-      std::fprintf(stderr, "ed_fit: warning: %s\n", warning.c_str());
-    }
+  for (const std::string& warning : FitWarnings(run)) {
+    std::fprintf(stderr, "ed_fit: warning: %s\n", warning.c_str());
   }
   if (result.IsUsable()) {
     const Timer timer;

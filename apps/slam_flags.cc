@@ -85,6 +85,9 @@ DEFINE_double(w_reg,
 DEFINE_double(w_data,
               Defaults().options.levels.plane_weight,
               "weight of the distance to the depth");
+DEFINE_int32(max_observations,
+             Defaults().options.max_observations,
+             "points of the map that are held against a frame");
 DEFINE_string(energy, "", "more energies, NAME[:param=value,...];... (see ed_list_energies)");
 DEFINE_string(plugin, "", "shared object with more energies");
 DEFINE_int32(threads, Defaults().options.num_threads, "changes the time, not the result");
@@ -113,6 +116,7 @@ Status CheckNumbers() {
       {"live_every", FLAGS_live_every * 1.0, 0.0, "a whole number >= 0 (0 = none)"},
       {"checkpoint_every", FLAGS_checkpoint_every * 1.0, 0.0, "a whole number >= 0 (0 = none)"},
       {"nodes_in_view", FLAGS_nodes_in_view * 1.0, 4.0, "a whole number >= 4"},
+      {"max_observations", FLAGS_max_observations * 1.0, 100.0, "a whole number >= 100"},
       {"verify_every", FLAGS_verify_every * 1.0, 0.0, "a whole number >= 0 (0 = none)"},
       {"threads", FLAGS_threads * 1.0, 1.0, "a whole number >= 1"},
       {"node_spacing", FLAGS_node_spacing, 0.0, "metres >= 0 (0 = automatic)"},
@@ -159,6 +163,7 @@ void ReadNumbers(SlamSettings* settings) {
   options->levels.rotation_weight = FLAGS_w_rot;
   options->levels.regularization_weight = FLAGS_w_reg;
   options->levels.plane_weight = FLAGS_w_data;
+  options->max_observations = FLAGS_max_observations;
   options->verify_every = FLAGS_verify_every;
   options->num_threads = FLAGS_threads;
   options->surface.num_threads = FLAGS_threads;

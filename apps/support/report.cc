@@ -37,7 +37,9 @@ ordered_json BackendReport() {
   const LinearAlgebraBackend backend = DescribeBackend();
   return {{"ceres", backend.ceres_version},
           {"sparse_library", backend.sparse_library},
-          {"blas", backend.blas}};
+          {"scalar_library", backend.scalar_library},
+          {"blas", backend.blas},
+          {"kernels", backend.kernels}};
 }
 
 }  // namespace ceres_ed

@@ -17,7 +17,8 @@ Status WriteReport(const std::string& path, const nlohmann::ordered_json& report
 // Returns every flag of the program, as it is now, with its type: the "flags" of a report.
 nlohmann::ordered_json FlagsReport();
 
-// Returns {"ceres", "sparse_library", "blas"}: the "backend" of a report.
+// Returns {"ceres", "sparse_library", "scalar_library", "blas", "kernels"}: the "backend" of a
+// report.
 nlohmann::ordered_json BackendReport();
 
 }  // namespace ceres_ed

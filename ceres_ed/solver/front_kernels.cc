@@ -249,6 +249,7 @@ CERES_ED_INLINE void TransposedProduct(
 
 // The kernels of one kind of machine.
 struct Kernels {
+  const char* name;
   bool (*factorize_panel)(int, int, int, double*);
   void (*outer_product)(const OuterProduct&, int, int);
   void (*product)(int, int, const double*, int, const double*, double*);
@@ -256,7 +257,7 @@ struct Kernels {
 };
 
 // `LANES` doubles a vector, tiles of `VECTORS` by `COLUMNS`: as many as there are registers.
-#define CERES_ED_DEFINE_KERNELS(NAME, TARGET, LANES, VECTORS, COLUMNS)                \
+#define CERES_ED_DEFINE_KERNELS(NAME, TEXT, TARGET, LANES, VECTORS, COLUMNS)          \
   TARGET bool NAME##Panel(int width, int rows, int stride, double* panel) {           \
     return Panel<LANES, VECTORS, COLUMNS>(width, rows, stride, panel);                \
   }                                                                                   \
@@ -276,12 +277,13 @@ struct Kernels {
     TransposedProduct<LANES>(width, rows, L, stride, x, y);                           \
   }                                                                                   \
   constexpr Kernels k##NAME = {                                                       \
-      NAME##Panel, NAME##OuterProduct, NAME##Product, NAME##TransposedProduct};
+      TEXT, NAME##Panel, NAME##OuterProduct, NAME##Product, NAME##TransposedProduct};
 
-CERES_ED_DEFINE_KERNELS(Plain, , 2, 2, 4)
+CERES_ED_DEFINE_KERNELS(Plain, "plain", , 2, 2, 4)
 #ifdef CERES_ED_HAVE_X86_TARGETS
-CERES_ED_DEFINE_KERNELS(Avx2, [[gnu::target("avx2,fma")]], 4, 3, 4)
-CERES_ED_DEFINE_KERNELS(Avx512, [[gnu::target("avx512f,avx512vl,avx512dq,avx2,fma")]], 8, 3, 8)
+CERES_ED_DEFINE_KERNELS(Avx2, "AVX2", [[gnu::target("avx2,fma")]], 4, 3, 4)
+CERES_ED_DEFINE_KERNELS(
+    Avx512, "AVX-512", [[gnu::target("avx512f,avx512vl,avx512dq,avx2,fma")]], 8, 3, 8)
 #endif
 
 Kernels ChooseKernels() {
@@ -301,6 +303,8 @@ const Kernels& ForThisMachine() {
 }
 
 }  // namespace
+
+const char* FrontKernelName() { return ForThisMachine().name; }
 
 bool FactorizePanel(int width, int rows, int stride, double* panel) {
   return ForThisMachine().factorize_panel(width, rows, stride, panel);

@@ -14,6 +14,9 @@ inline constexpr int kPanelWidth = 24;
 
 inline constexpr int RoundUpRows(int rows) { return (rows + kRowUnit - 1) / kRowUnit * kRowUnit; }
 
+// What the kernels of this process are compiled for: "AVX-512", "AVX2" or "plain".
+const char* FrontKernelName();
+
 // Factorises the first `width` columns of a front in place: [L11; L21] for [F11; F21], lower
 // triangle of F11 alone. Rows [width, RoundUpRows(width)) are zero; F21 starts behind them.
 // `rows` in all, a multiple of kRowUnit; `stride` >= rows a column. What stands above the diagonal

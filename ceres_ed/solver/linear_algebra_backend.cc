@@ -1,5 +1,9 @@
 #include "ceres_ed/solver/linear_algebra_backend.h"
 
+#include <ceres_ed/solver/front_kernels.h>
+
+#include <climits>
+#include <cstdlib>
 #include <mutex>
 #include <string>
 
@@ -32,13 +36,32 @@ std::string FileOf(const void* address) {
   return info.dli_fname;
 }
 
+// Global look-up order is the one that bound CHOLMOD's dgemm_, so both find the same function.
+std::string BlasFile() { return FileOf(dlsym(RTLD_DEFAULT, "dgemm_")); }
+
 std::string DescribeBlas() {
-  // Global look-up order is the one that bound CHOLMOD's dgemm_, so both find the same function.
-  const std::string file = FileOf(dlsym(RTLD_DEFAULT, "dgemm_"));
+  const std::string file = BlasFile();
   if (file.empty()) return "none";
   const auto config = FindLoaded<char*()>("openblas_get_config");
   if (FileOf(reinterpret_cast<const void*>(config)) == file) return config();
   return file.substr(file.find_last_of('/') + 1);
+}
+
+// Debian's alternatives give every BLAS the same name: what it is shows at the end of the links.
+std::string FollowLinks(const std::string& file) {
+  char path[PATH_MAX];
+  return realpath(file.c_str(), path) != nullptr ? path : file;
+}
+
+// "ATLAS" or "the reference BLAS", empty for any other.
+std::string SlowBlas(const LinearAlgebraBackend& backend) {
+  const std::string& file = backend.blas_file;
+  const auto has = [&file](const char* part) { return file.find(part) != std::string::npos; };
+  if (has("atlas") || has("f77blas")) return "ATLAS";
+  // OpenBLAS that goes by this name, too, gives itself away by its configuration.
+  const bool is_openblas = has("openblas") || backend.blas.rfind("OpenBLAS", 0) == 0;
+  const bool is_other = has("/blis") || has("mkl");
+  return has("/libblas.so") && !is_openblas && !is_other ? "the reference BLAS" : "";
 }
 
 // The thread count of OpenBLAS belongs to the process, so the guards of all threads share one
@@ -87,7 +110,35 @@ LinearAlgebraBackend DescribeBackend() {
       backend.sparse_library = "none";
   }
   backend.blas = DescribeBlas();
+  backend.blas_file = FollowLinks(BlasFile());
+#ifdef CERES_ED_HAVE_CHOLMOD
+  backend.scalar_library = "CHOLMOD";
+#else
+  backend.scalar_library = "Eigen";
+#endif
+  backend.kernels = FrontKernelName();
   return backend;
+}
+
+std::vector<std::string> BackendWarnings(const LinearAlgebraBackend& backend,
+                                         const BackendUse& use) {
+  const bool ceres_asks_blas = use.ceres && backend.sparse_library == "SuiteSparse";
+  const bool scalar_asks_blas = use.scalar && backend.scalar_library == "CHOLMOD";
+  std::vector<std::string> warnings;
+  if (use.ceres && !ceres_asks_blas) {
+    warnings.push_back("Ceres was built without SuiteSparse and factorises slowly: use the block " +
+                       std::string("solver, or a Ceres with SuiteSparse"));
+  }
+  if (use.scalar && !scalar_asks_blas) {
+    warnings.push_back("built without CHOLMOD, large meshes are smoothed and finished slowly: " +
+                       std::string("install libsuitesparse-dev and build again"));
+  }
+  const std::string slow = SlowBlas(backend);
+  if (!slow.empty() && (ceres_asks_blas || scalar_asks_blas)) {
+    warnings.push_back(slow + " (" + backend.blas_file + ") serves CHOLMOD, slower than OpenBLAS " +
+                       "would: install libopenblas-dev and build again");
+  }
+  return warnings;
 }
 
 ceres::SparseLinearAlgebraLibraryType PreferredSparseLibrary() {

@@ -3,6 +3,7 @@
 #define CERES_ED_SOLVER_LINEAR_ALGEBRA_BACKEND_H_
 
 #include <string>
+#include <vector>
 
 #include <ceres/types.h>
 
@@ -17,7 +18,26 @@ struct LinearAlgebraBackend {
   // The configuration string of OpenBLAS where it serves dgemm_, else the file that does
   // ("libf77blas.so.3"), else "none".
   std::string blas;
+  // That file with all links followed, empty where there is none.
+  std::string blas_file;
+  // What factorises scalar matrices (sparse_cholesky.h): "CHOLMOD" or "Eigen".
+  std::string scalar_library;
+  // Vector instructions of the block solver's factorisation (front_kernels.h).
+  std::string kernels;
 };
+
+// What a program asks of Ceres' libraries; the block solver brings all that it needs.
+struct BackendUse {
+  // SPARSE_NORMAL_CHOLESKY.
+  bool ceres = false;
+  // Scalar factorisations.
+  bool scalar = false;
+};
+
+// Returns a sentence on each thing that makes `use` slow, and what to do about it: no SuiteSparse
+// or CHOLMOD, or ATLAS or the reference BLAS behind them.
+std::vector<std::string> BackendWarnings(const LinearAlgebraBackend& backend,
+                                         const BackendUse& use);
 
 // Returns the backend of this process, asked of the loaded libraries and not of the build.
 LinearAlgebraBackend DescribeBackend();

@@ -1,4 +1,5 @@
 // What every program promises, whatever it does.
+#include <ceres_ed/solver/front_kernels.h>
 #include <ceres_ed/version.h>
 
 #include <string>
@@ -64,6 +65,7 @@ TEST_P(EveryProgram, ShowsItsVersion) {
   EXPECT_THAT(lines, Contains(StartsWith("Ceres 2.")));
   EXPECT_THAT(lines, Contains(StartsWith("sparse library ")));
   EXPECT_THAT(lines, Contains(StartsWith("BLAS ")));
+  EXPECT_THAT(lines, Contains(std::string("vector kernels ") + FrontKernelName()));
   EXPECT_THAT(lines, Contains("threads " + std::to_string(std::thread::hardware_concurrency())));
 }
 

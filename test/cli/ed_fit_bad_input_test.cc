@@ -44,6 +44,7 @@ TEST_F(EdFitBadInputTest, BadFlagsAreUsageErrors) {
       {"--rings=-1", "rings", "-1"},
       {"--neighbors=0", "neighbors", "0"},
       {"--neighbors=9", "neighbors", "9"},
+      {"--max_samples=9", "max_samples", "9"},
       {"--threads=0", "threads", "0"},
       {"--w_rot=-1", "--w_rot=-1", ">= 0"},
       {"--w_reg=inf", "--w_reg=inf", "finite"},

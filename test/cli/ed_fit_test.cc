@@ -18,7 +18,7 @@ using ::testing::StartsWith;
 TEST_F(EdFitTest, PutsTheSourceOnTheTarget) {
   const ProgramResult result = FitPair();
   ASSERT_EQ(result.exit_code, 0) << result.err;
-  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.err, BackendComplaints());
   const PointCloud target = Load("target.ply").cloud;
   const double before = Summarize(SurfaceDistances(Load("source.ply").cloud.points, target)).max;
   const double after = Summarize(SurfaceDistances(Load("out.ply").cloud.points, target)).max;

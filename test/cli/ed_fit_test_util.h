@@ -3,6 +3,7 @@
 #define CERES_ED_TEST_CLI_ED_FIT_TEST_UTIL_H_
 
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/solver/linear_algebra_backend.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,6 +21,17 @@
 #include <test/io/io_test_util.h>
 
 namespace ceres_ed {
+
+// What ed_fit says on stderr of the libraries of this build: nothing where they are fast.
+inline std::string BackendComplaints() {
+  BackendUse use;
+  use.scalar = true;
+  std::string lines;
+  for (const std::string& warning : BackendWarnings(DescribeBackend(), use)) {
+    lines += "ed_fit: warning: " + warning + "\n";
+  }
+  return lines;
+}
 
 // A closed ring of 1.5 x 1.04, thick on one side: nothing that it could slide or turn along.
 inline Eigen::Vector3d RingPoint(double u, double v) {

@@ -44,6 +44,7 @@ TEST_F(EdSlamBadInputTest, RefusesFlagsThatMakeNoSense) {
                            "--live_every=-1",
                            "--checkpoint_every=-1",
                            "--nodes_in_view=0",
+                           "--max_observations=99",
                            "--time_limit_s=-1"}) {
     ExpectRefused(Run("out", {flag}), 1, std::string(flag) + ", expected ");
   }

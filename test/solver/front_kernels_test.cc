@@ -5,6 +5,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace ceres_ed {
@@ -41,6 +42,10 @@ struct TestFront {
 
 constexpr int kWidths[] = {3, 6, 9, 12, 24, 27, 48, 60, 75};
 constexpr int kUpdateRows[] = {0, 3, 8, 21, 60, 250};
+
+TEST(FrontKernels, AreNamed) {
+  EXPECT_THAT(FrontKernelName(), ::testing::AnyOfArray({"AVX-512", "AVX2", "plain"}));
+}
 
 TEST(FrontKernels, FactorizeWhatDenseCholeskyDoes) {
   for (const int width : kWidths) {
