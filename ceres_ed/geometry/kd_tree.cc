@@ -51,7 +51,7 @@ class NearestSet {
   std::size_t size() const { return best_.found() ? 1 : 0; }
   void sort() {}
   bool addPoint(double squared_distance, int index) {
-    if (squared_distance > bound_) return true;
+    if (!(squared_distance <= bound_)) return true;
     if (!best_.found() || Before(squared_distance, index, best_)) {
       best_ = {index, squared_distance};
       bound_ = squared_distance;

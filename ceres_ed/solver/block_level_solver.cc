@@ -53,14 +53,13 @@ class Minimizer {
             const BlockStructure& structure,
             const SolverOptions& options,
             BlockCholesky* cholesky,
-            LevelWorkspace* workspace,
+            std::vector<double>* values,
             DeformationState* state)
       : equations_(equations),
         structure_(structure),
         options_(options),
         cholesky_(cholesky),
-        values_(workspace->values),
-        candidate_values_(workspace->candidate_values),
+        values_(*values),
         state_(state),
         radius_(options.initial_trust_region_radius) {}
 
@@ -69,7 +68,7 @@ class Minimizer {
  private:
   enum class Step { kAccepted, kRejected, kInvalid, kConverged };
 
-  bool Evaluate(const DeformationState& state, double* cost);
+  bool EvaluateEquations();
   Step TakeStep(bool last);
   bool IsDone(int iteration, SolveSummary* summary) const;
   void Shrink() {
@@ -82,7 +81,6 @@ class Minimizer {
   const SolverOptions& options_;
   BlockCholesky* cholesky_;
   std::vector<double>& values_;
-  std::vector<double>& candidate_values_;
   DeformationState* state_;
   const Timer timer_;
   double radius_;
@@ -91,12 +89,18 @@ class Minimizer {
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;
   SavedUnknowns before_;
-  // That at a candidate; with candidate_values_ it is swapped in when the candidate is accepted.
-  Eigen::VectorXd candidate_gradient_;
 };
 
+bool Minimizer::EvaluateEquations() {
+  if (!equations_.Evaluate(*state_, options_.num_threads, &cost_, &values_, &gradient_)) {
+    return false;
+  }
+  diagonal_ = structure_.Diagonal(values_);
+  return true;
+}
+
 // Tests the step that minimises the damped quadratic model, and takes it if the cost follows. The
-// equations at the new state are worked out along with its cost unless it is the `last` one.
+// equations at the new state are worked out unless no step comes after it.
 Minimizer::Step Minimizer::TakeStep(bool last) {
   const int num_rows = structure_.num_primal_rows();
   const double floor = std::max(kMinRelativeDiagonal * diagonal_.head(num_rows).mean(), 1e-300);
@@ -116,12 +120,8 @@ Minimizer::Step Minimizer::TakeStep(bool last) {
   before_.Save(equations_, *state_);
   equations_.Plus(delta, state_);
   double candidate_cost = 0.0;
-  const bool valid = last ? equations_.EvaluateCost(*state_, options_.num_threads, &candidate_cost)
-                          : equations_.Evaluate(*state_,
-                                                options_.num_threads,
-                                                &candidate_cost,
-                                                &candidate_values_,
-                                                &candidate_gradient_);
+  // The cost alone: the matrix is the largest thing there is, and need not be there twice.
+  const bool valid = equations_.EvaluateCost(*state_, options_.num_threads, &candidate_cost);
   const double decrease = cost_ - candidate_cost;
   const double quality = decrease / model_decrease;
   if (!valid || !(quality > kMinRelativeDecrease)) {
@@ -130,10 +130,11 @@ Minimizer::Step Minimizer::TakeStep(bool last) {
   }
   const bool converged = std::abs(decrease) <= options_.function_tolerance * cost_;
   cost_ = candidate_cost;
-  if (!last) {
-    values_.swap(candidate_values_);
-    gradient_.swap(candidate_gradient_);
-    diagonal_ = structure_.Diagonal(values_);
+  if (!last && !converged && !EvaluateEquations()) {
+    // The cost is finite there and a derivative is not: back to where both were.
+    before_.Restore(equations_, state_);
+    EvaluateEquations();
+    return Step::kInvalid;
   }
   radius_ = std::min(kMaxTrustRegionRadius,
                      radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * quality - 1.0, 3)));
@@ -168,11 +169,10 @@ bool Minimizer::IsDone(int iteration, SolveSummary* summary) const {
 
 void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
   summary->status = SolveStatus::kFailed;
-  if (!equations_.Evaluate(*state_, options_.num_threads, &cost_, &values_, &gradient_)) {
+  if (!EvaluateEquations()) {
     summary->message = "a residual can't be evaluated at the start";
     return;
   }
-  diagonal_ = structure_.Diagonal(values_);
   level->initial_cost = cost_;
   level->final_cost = cost_;
   int invalid_steps = 0;
@@ -238,7 +238,7 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
   level.build_time_s = timer.Restart();
   SavedUnknowns before;
   before.Save(equations_, *state);
-  Minimizer(equations_, *structure_, options, cholesky_.get(), &workspace_, state)
+  Minimizer(equations_, *structure_, options, cholesky_.get(), &values_, state)
       .Run(&level, summary);
   level.solve_time_s = timer.Seconds();
   summary->levels.push_back(level);

@@ -12,12 +12,6 @@
 
 namespace ceres_ed {
 
-// The largest arrays of a solve, kept for their memory.
-struct LevelWorkspace {
-  std::vector<double> values;
-  std::vector<double> candidate_values;
-};
-
 // Levenberg-Marquardt with the acceptance rules and tolerances of Ceres, on the same cost functions
 // and losses. Keeps structure and symbolic factor from solve to solve: while the variable nodes
 // stay the same, pairs of blocks only ever join the structure, so that new correspondences seldom
@@ -36,7 +30,7 @@ class BlockLevelSolver final : public LevelSolver {
 
   // Those of the last problem, kept for their memory.
   NormalEquations equations_;
-  LevelWorkspace workspace_;
+  std::vector<double> values_;
   std::vector<char> variable_nodes_;
   std::vector<int> sizes_;
   std::vector<BlockPair> pairs_;
