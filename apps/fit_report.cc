@@ -123,7 +123,6 @@ std::vector<std::string> FitWarnings(const FitRun& run) {
   const FitOptions& options = run.settings->options;
   BackendUse use;
   use.ceres = options.strategy.linear_solver == LinearSolver::kCeres;
-  use.scalar = options.finish;
   for (const std::string& warning : BackendWarnings(DescribeBackend(), use)) {
     warnings.push_back(warning);
   }

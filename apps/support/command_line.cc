@@ -208,9 +208,10 @@ std::string HelpText(const ProgramInfo& info) {
 std::string VersionText() {
   const LinearAlgebraBackend backend = DescribeBackend();
   return std::string("ceres_ed ") + kVersion + "\nCeres " + backend.ceres_version +
-         "\nsparse library " + backend.sparse_library + "\nscalar library " +
-         backend.scalar_library + "\nBLAS " + backend.blas + "\nvector kernels " + backend.kernels +
-         "\nthreads " + std::to_string(std::thread::hardware_concurrency()) + "\n";
+         "\nsparse library " + backend.sparse_library + "\nordering library " +
+         backend.ordering_library + "\nBLAS " + backend.blas + "\nvector kernels " +
+         backend.kernels + "\nthreads " + std::to_string(std::thread::hardware_concurrency()) +
+         "\n";
 }
 
 std::string CurrentValue(const std::string& name) {

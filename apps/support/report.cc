@@ -37,7 +37,7 @@ ordered_json BackendReport() {
   const LinearAlgebraBackend backend = DescribeBackend();
   return {{"ceres", backend.ceres_version},
           {"sparse_library", backend.sparse_library},
-          {"scalar_library", backend.scalar_library},
+          {"ordering_library", backend.ordering_library},
           {"blas", backend.blas},
           {"kernels", backend.kernels}};
 }

@@ -17,7 +17,7 @@ Status WriteReport(const std::string& path, const nlohmann::ordered_json& report
 // Returns every flag of the program, as it is now, with its type: the "flags" of a report.
 nlohmann::ordered_json FlagsReport();
 
-// Returns {"ceres", "sparse_library", "scalar_library", "blas", "kernels"}: the "backend" of a
+// Returns {"ceres", "sparse_library", "ordering_library", "blas", "kernels"}: the "backend" of a
 // report.
 nlohmann::ordered_json BackendReport();
 

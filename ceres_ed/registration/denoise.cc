@@ -2,7 +2,6 @@
 
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/geometry/welded_mesh.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/sparse_cholesky.h>
 
 #include <algorithm>
@@ -48,7 +47,6 @@ void TakeSideOf(const std::vector<Eigen::Vector3d>& given, std::vector<Eigen::Ve
 }
 
 Eigen::MatrixXd Smoothed(const WeldedMesh& mesh, const Eigen::MatrixXd& points, double length) {
-  const ScopedSerialLinearAlgebra serial;
   SparseCholesky::Matrix matrix = SquaredLaplacian(mesh);
   // An isolated vertex stays.
   Eigen::VectorXd degrees = Eigen::VectorXd::Zero(mesh.num_vertices());

@@ -1,7 +1,6 @@
 #include "ceres_ed/registration/unfold.h"
 
 #include <ceres_ed/registration/folded_faces.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/sparse_cholesky.h>
 
 #include <algorithm>
@@ -249,7 +248,6 @@ UnfoldResult Unfolder::Run() {
   result.before = static_cast<int>(folded.size());
   result.after = result.before;
   if (folded.empty()) return result;
-  const ScopedSerialLinearAlgebra serial;
   rest_normals_ = WeldedNormals(mesh_, rest_);
   double edges = 0.0;
   for (const auto& [a, b] : mesh_.edges) edges += (rest_[a] - rest_[b]).norm();

@@ -4,7 +4,6 @@
 #include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/finish_matching.h>
 #include <ceres_ed/registration/fold_guard.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/sparse_cholesky.h>
 #include <ceres_ed/util/timer.h>
 
@@ -169,7 +168,6 @@ void Finisher::Conclude(const std::vector<FinishPair>& pairs) {
 }
 
 FinishResult Finisher::Run() {
-  const ScopedSerialLinearAlgebra serial;
   const Timer clock;
   Timer timer;
   result_.points = *input_.points;

@@ -1,7 +1,6 @@
 #include "ceres_ed/slam/marginal_level.h"
 
 #include <ceres_ed/graph/node_neighborhood.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/marginal_solve.h>
 #include <ceres_ed/util/timer.h>
 
@@ -63,7 +62,6 @@ bool MarginalLevel::Solve(const ProblemBuilder& builder,
                           const SolverOptions& options,
                           LevelWindow* window,
                           SolveSummary* summary) {
-  const ScopedSerialLinearAlgebra serial;
   const Timer timer;
   const auto num_eliminated = static_cast<std::ptrdiff_t>(eliminated_.size());
   ProblemConfig eliminated = window->Config(/*camera_variable=*/false, SeamEdges::kKeep);

@@ -1,6 +1,5 @@
 #include "ceres_ed/solver/block_level_solver.h"
 
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/normal_equations.h>
 #include <ceres_ed/util/timer.h>
 
@@ -223,7 +222,6 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
                              const SolverOptions& options,
                              DeformationState* state,
                              SolveSummary* summary) {
-  const ScopedSerialLinearAlgebra serial;
   LevelSummary level;
   Timer timer;
   equations_.Build(builder, config, DualPoints::kWhereFew);

@@ -112,9 +112,9 @@ LinearAlgebraBackend DescribeBackend() {
   backend.blas = DescribeBlas();
   backend.blas_file = FollowLinks(BlasFile());
 #ifdef CERES_ED_HAVE_CHOLMOD
-  backend.scalar_library = "CHOLMOD";
+  backend.ordering_library = "CHOLMOD";
 #else
-  backend.scalar_library = "Eigen";
+  backend.ordering_library = "Eigen";
 #endif
   backend.kernels = FrontKernelName();
   return backend;
@@ -123,18 +123,13 @@ LinearAlgebraBackend DescribeBackend() {
 std::vector<std::string> BackendWarnings(const LinearAlgebraBackend& backend,
                                          const BackendUse& use) {
   const bool ceres_asks_blas = use.ceres && backend.sparse_library == "SuiteSparse";
-  const bool scalar_asks_blas = use.scalar && backend.scalar_library == "CHOLMOD";
   std::vector<std::string> warnings;
   if (use.ceres && !ceres_asks_blas) {
     warnings.push_back("Ceres was built without SuiteSparse and factorises slowly: use the block " +
                        std::string("solver, or a Ceres with SuiteSparse"));
   }
-  if (use.scalar && !scalar_asks_blas) {
-    warnings.push_back("built without CHOLMOD, large meshes are smoothed and finished slowly: " +
-                       std::string("install libsuitesparse-dev and build again"));
-  }
   const std::string slow = SlowBlas(backend);
-  if (!slow.empty() && (ceres_asks_blas || scalar_asks_blas)) {
+  if (!slow.empty() && ceres_asks_blas) {
     warnings.push_back(slow + " (" + backend.blas_file + ") serves CHOLMOD, slower than OpenBLAS " +
                        "would: install libopenblas-dev and build again");
   }

@@ -20,8 +20,8 @@ struct LinearAlgebraBackend {
   std::string blas;
   // That file with all links followed, empty where there is none.
   std::string blas_file;
-  // What factorises scalar matrices (sparse_cholesky.h): "CHOLMOD" or "Eigen".
-  std::string scalar_library;
+  // What orders the matrices of the block solver (elimination_order.h): "CHOLMOD" or "Eigen".
+  std::string ordering_library;
   // Vector instructions of the block solver's factorisation (front_kernels.h).
   std::string kernels;
 };
@@ -30,12 +30,10 @@ struct LinearAlgebraBackend {
 struct BackendUse {
   // SPARSE_NORMAL_CHOLESKY.
   bool ceres = false;
-  // Scalar factorisations.
-  bool scalar = false;
 };
 
-// Returns a sentence on each thing that makes `use` slow, and what to do about it: no SuiteSparse
-// or CHOLMOD, or ATLAS or the reference BLAS behind them.
+// Returns a sentence on each thing that makes `use` slow, and what to do about it: no SuiteSparse,
+// or ATLAS or the reference BLAS behind it.
 std::vector<std::string> BackendWarnings(const LinearAlgebraBackend& backend,
                                          const BackendUse& use);
 

@@ -1,6 +1,5 @@
 #include "ceres_ed/solver/marginal_strategy.h"
 
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/solver/marginal_solve.h>
 #include <ceres_ed/util/timer.h>
 
@@ -27,7 +26,6 @@ void MarginalStrategy::SolveWithoutElimination(const ProblemBuilder& builder,
 SolveSummary MarginalStrategy::Solve(const ProblemBuilder& builder,
                                      const SolverOptions& options,
                                      DeformationState* state) {
-  const ScopedSerialLinearAlgebra serial;
   const Timer timer;
   SolveSummary summary;
   MarginalProblem problem;

@@ -1,7 +1,5 @@
 #include "ceres_ed/solver/marginalization.h"
 
-#include <ceres_ed/solver/linear_algebra_backend.h>
-
 #include <algorithm>
 #include <string>
 
@@ -149,7 +147,6 @@ bool Marginalization::Linearize(const DeformationState& state, int num_threads) 
 
 bool Marginalization::Eliminate(double damping) {
   CHECK(has_values_ && cholesky_ != nullptr) << "Linearize comes first, with nodes to eliminate";
-  const ScopedSerialLinearAlgebra serial;
   const int num_rows = num_eliminated_rows();
   Eigen::VectorXd diagonal = structure_->Diagonal(values_);
   // The Schur complement is only semi-definite, a rigid motion of the seam costs nothing. With
@@ -192,7 +189,6 @@ bool Marginalization::Update(const DeformationState& state, int num_threads) {
   double energy = 0.0;
   Eigen::VectorXd gradient;
   if (!equations_->EvaluateGradient(state, num_threads, &energy, &gradient)) return false;
-  const ScopedSerialLinearAlgebra serial;
   energy_ = energy;
   gradient_ = std::move(gradient);
   AppendNodes(state, eliminated_, 0, &origin_);
@@ -247,7 +243,6 @@ double Marginalization::PriorValue(const DeformationState& state) const {
 // L^T (x_f, d) = (-y_f, L_ss^T d): the seam's part of the solution is d itself.
 void Marginalization::BackSubstitute(DeformationState* state) const {
   CHECK(has_factor_) << "Eliminate comes first";
-  const ScopedSerialLinearAlgebra serial;
   Eigen::VectorXd rhs = -reduced_gradient_;
   rhs.tail(seam_factor_.rows()) =
       seam_factor_.triangularView<Eigen::Lower>().transpose() * SeamDifference(*state);

@@ -9,11 +9,11 @@
 
 namespace ceres_ed {
 
-// Factorises a symmetric matrix A = L L^T: by CHOLMOD's supernodal code where the library was built
-// with it, else by Eigen's. One object serves one thread at a time.
+// Factorises a symmetric matrix A = L L^T as BlockCholesky does. One object serves one thread at a
+// time.
 class SparseCholesky {
  public:
-  // The lower triangle of A, column by column.
+  // The lower triangle of A, column by column: compressed, each column by row from its diagonal on.
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
   // Analyses the pattern of `lower`; the values don't matter yet.

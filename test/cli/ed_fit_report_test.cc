@@ -43,7 +43,7 @@ TEST_F(EdFitTest, ReportsEveryFieldWithItsType) {
           "target/path",
           "backend/ceres",
           "backend/sparse_library",
-          "backend/scalar_library",
+          "backend/ordering_library",
           "backend/blas",
           "backend/kernels",
           "flags/output",

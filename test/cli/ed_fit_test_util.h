@@ -24,10 +24,8 @@ namespace ceres_ed {
 
 // What ed_fit says on stderr of the libraries of this build: nothing where they are fast.
 inline std::string BackendComplaints() {
-  BackendUse use;
-  use.scalar = true;
   std::string lines;
-  for (const std::string& warning : BackendWarnings(DescribeBackend(), use)) {
+  for (const std::string& warning : BackendWarnings(DescribeBackend(), BackendUse())) {
     lines += "ed_fit: warning: " + warning + "\n";
   }
   return lines;

@@ -42,7 +42,6 @@ TEST(LinearAlgebraBackend, OpenBlasServesWhereItIsLoaded) {
 LinearAlgebraBackend WithBlas(const std::string& blas, const std::string& file) {
   LinearAlgebraBackend backend;
   backend.sparse_library = "SuiteSparse";
-  backend.scalar_library = "CHOLMOD";
   backend.blas = blas;
   backend.blas_file = file;
   return backend;
@@ -53,45 +52,39 @@ const LinearAlgebraBackend kAtlas =
 const LinearAlgebraBackend kReference =
     WithBlas("libblas.so.3", "/usr/lib/x86_64-linux-gnu/blas/libblas.so.3.11.0");
 constexpr BackendUse kNoUse;
-constexpr BackendUse kCeresUse{true, false};
-constexpr BackendUse kScalarUse{false, true};
+constexpr BackendUse kCeresUse{true};
 
 TEST(BackendWarnings, NameASlowBlasWhereCholmodNeedsOne) {
-  for (const BackendUse& use : {kCeresUse, kScalarUse}) {
-    EXPECT_THAT(BackendWarnings(kAtlas, use), ElementsAre(HasSubstr("ATLAS (/usr/lib")));
-    EXPECT_THAT(BackendWarnings(WithBlas("libf77blas.so.3", "/usr/lib/libf77blas.so.3.10.3"), use),
-                ElementsAre(HasSubstr("ATLAS")));
-    EXPECT_THAT(BackendWarnings(kReference, use), ElementsAre(HasSubstr("the reference BLAS")));
-  }
+  EXPECT_THAT(BackendWarnings(kAtlas, kCeresUse), ElementsAre(HasSubstr("ATLAS (/usr/lib")));
+  EXPECT_THAT(
+      BackendWarnings(WithBlas("libf77blas.so.3", "/usr/lib/libf77blas.so.3.10.3"), kCeresUse),
+      ElementsAre(HasSubstr("ATLAS")));
+  EXPECT_THAT(BackendWarnings(kReference, kCeresUse), ElementsAre(HasSubstr("the reference BLAS")));
 }
 
 TEST(BackendWarnings, AreSilentWhereTheBlockSolverWorksAlone) {
   for (LinearAlgebraBackend backend : {kAtlas, kReference}) {
     EXPECT_THAT(BackendWarnings(backend, kNoUse), IsEmpty());
     backend.sparse_library = "EigenSparse";
-    backend.scalar_library = "Eigen";
     EXPECT_THAT(BackendWarnings(backend, kNoUse), IsEmpty());
   }
 }
 
 TEST(BackendWarnings, AreSilentWithAFastBlas) {
-  const BackendUse both{true, true};
   for (const auto& [blas, file] :
        {std::pair("OpenBLAS 0.3.21 NO_LAPACKE", "/usr/lib/libopenblasp-r0.3.21.so"),
         std::pair("OpenBLAS 0.3.21 NO_LAPACKE", "/usr/lib/openblas-pthread/libblas.so.3"),
         std::pair("libblas.so.3", "/usr/lib/x86_64-linux-gnu/blis-openmp/libblas.so.3"),
         std::pair("libmkl_rt.so", "/usr/lib/x86_64-linux-gnu/libmkl_rt.so")}) {
-    EXPECT_THAT(BackendWarnings(WithBlas(blas, file), both), IsEmpty()) << file;
+    EXPECT_THAT(BackendWarnings(WithBlas(blas, file), kCeresUse), IsEmpty()) << file;
   }
 }
 
 // No BLAS is asked then, whichever it is.
-TEST(BackendWarnings, NameAMissingCholmodForWhatNeedsIt) {
+TEST(BackendWarnings, NameAMissingSuiteSparse) {
   LinearAlgebraBackend backend = kAtlas;
   backend.sparse_library = "EigenSparse";
-  backend.scalar_library = "Eigen";
   EXPECT_THAT(BackendWarnings(backend, kCeresUse), ElementsAre(HasSubstr("without SuiteSparse")));
-  EXPECT_THAT(BackendWarnings(backend, kScalarUse), ElementsAre(HasSubstr("without CHOLMOD")));
 }
 
 TEST(ScopedSerialLinearAlgebra, HoldsBothOnOneThreadAndRestoresThem) {
