@@ -120,10 +120,11 @@ TEST_F(EdSlamStopTest, AKilledRunIsWholeAndGoesOnToTheSameBytes) {
 
 TEST_F(EdSlamStopTest, AStoppedRunGoesOnToTheSameBytes) {
   ASSERT_EQ(RunTracked("whole").exit_code, 0);
-  // Several parts, of which some don't get to their next checkpoint.
+  // Several parts, of which some don't get to their next checkpoint: the first ends after few
+  // frames on any machine, and one of the others has the time for all.
   int parts = 0;
   for (bool done = false; !done && parts < 50; ++parts) {
-    const std::string limit = "--time_limit_s=" + std::to_string(0.15 + 0.1 * parts);
+    const std::string limit = "--time_limit_s=" + std::to_string(0.01 + 0.05 * parts);
     const ProgramResult result = RunTracked("out", {"--resume", limit});
     done = result.exit_code == 0;
     EXPECT_TRUE(done || result.exit_code == 4) << result.err;
