@@ -13,12 +13,14 @@ namespace {
 
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kLargePage = std::size_t{1} << 21;
+// Arrays that come and go with each frame stay below: whole pages would leave gaps between them.
+constexpr std::size_t kWorthLargePages = std::size_t{64} << 20;
 
 std::size_t RoundUp(std::size_t size, std::size_t unit) { return (size + unit - 1) / unit * unit; }
 
 double* Allocate(std::size_t size) {
   const std::size_t bytes = size * sizeof(double);
-  const bool is_large = bytes >= 2 * kLargePage;
+  const bool is_large = bytes >= kWorthLargePages;
   const std::size_t unit = is_large ? kLargePage : kCacheLine;
   void* data = std::aligned_alloc(unit, RoundUp(bytes > 0 ? bytes : 1, unit));
   if (data == nullptr) throw std::bad_alloc();
@@ -30,6 +32,7 @@ double* Allocate(std::size_t size) {
 
 void WishForLargePages(void* data, std::size_t bytes) {
 #ifdef __linux__
+  if (bytes < kWorthLargePages) return;
   const auto begin = reinterpret_cast<std::uintptr_t>(data);
   const std::uintptr_t first = RoundUp(begin, kLargePage);
   const std::uintptr_t last = (begin + bytes) / kLargePage * kLargePage;
