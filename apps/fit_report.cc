@@ -155,7 +155,7 @@ ordered_json FitReport(const FitRun& run) {
       {"displacement", DisplacementReport(run)},
       {"time_s", TimeReport(run)},
       {"threads", run.settings->options.num_threads},
-      {"warnings", FitWarnings(run)},
+      {"warnings", run.warnings},
       {"flags", FlagsReport()},
       {"backend", BackendReport()}};
 }

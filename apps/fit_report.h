@@ -23,6 +23,8 @@ struct FitRun {
   double load_s = 0.0;
   double write_s = 0.0;
   double total_s = 0.0;
+  // All of them: FitWarnings().
+  std::vector<std::string> warnings;
 };
 
 // Returns all warnings: of the inputs, of the fit, and of libraries that made it slow.

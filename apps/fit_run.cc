@@ -38,7 +38,8 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
 Outcome Conclude(FitRun run, const Timer& clock) {
   const FitSettings& settings = *run.settings;
   const FitResult& result = *run.result;
-  for (const std::string& warning : FitWarnings(run)) {
+  run.warnings = FitWarnings(run);
+  for (const std::string& warning : run.warnings) {
     std::fprintf(stderr, "ed_fit: warning: %s\n", warning.c_str());
   }
   if (result.IsUsable()) {

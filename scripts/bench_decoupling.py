@@ -18,8 +18,8 @@ Three parts, each of which can be made alone (--only) and then joins what the ot
          seen map points to the true surface, of tracking, seen and hidden
 
 Schemes of gap: batch, marginal, default, the paper's with both seams, and, on the first sequence,
-0 to 8 rings with keep and cut, lazy, and two rings with all of level II. Frames that are verified don't count for times. Always one thread, one run at
-a time. Writes decoupling.png, decoupling.md and what each part found to --work; sequences that it
+0, 2, 4 and 8 rings with keep, 0, 2 and 8 with cut, lazy, and two rings with all of level II. Frames
+that are verified don't count for times. Always one thread, one run at a time. Writes decoupling.png, decoupling.md and what each part found to --work; sequences that it
 has are used again. Needs python3-numpy and python3-matplotlib. Exits with 1 where the default or
 the batch run fails, with 2 on a wrong call; other failures stand in the tables.
 

@@ -111,7 +111,7 @@ def run_sampled(command, frames, log):
     return samples[:-1]
 
 
-def growth(samples):
+def slope_of(samples):
     """Returns the slope of bytes over nodes, least squares; None where the map doesn't grow."""
     nodes = [sample[1] for sample in samples]
     if len(samples) < 3 or max(nodes) - min(nodes) < 100:
@@ -159,7 +159,7 @@ def main():
         print(f"{PROGRAM}: {error}", file=sys.stderr)
         return 1
     report = json.loads((output / "report.json").read_text())
-    slope = growth([sample for sample in samples if sample[0] >= options.first])
+    slope = slope_of([sample for sample in samples if sample[0] >= options.first])
     print("\n".join(lines_of(report, slope)))
     memory = report["memory"]
     return 0 if (memory["per_node"] <= options.most_node

@@ -18,7 +18,7 @@ from pathlib import Path
 from bench_sequences import bench_sequence, list_sequences
 from bench_tables import cell, check_marks, table, write_between
 from pair_runs import bench_pair, find_pairs
-from program_runs import PROGRAM, ROOT, RunFailed, Variant, default_folders
+from program_runs import PROGRAM, ROOT, RunFailed, Variant, default_folders, names
 from sequence_runs import CACHE
 
 BEGIN, END = "<!-- bench_points.py: begin -->", "<!-- bench_points.py: end -->"
@@ -55,10 +55,6 @@ def parse_options():
     options.static_residual = ""
     options.ed_eval = options.bin / "ed_eval"
     return options
-
-
-def names(text):
-    return [name for name in text.split(",") if name]
 
 
 def variants(program, flag, counts):

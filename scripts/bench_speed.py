@@ -25,16 +25,12 @@ from pathlib import Path
 from bench_sequences import list_sequences
 from bench_tables import cell, check_marks, table, write_between
 from pair_runs import find_pairs
-from program_runs import PROGRAM, ROOT, RunFailed, default_folders, wrong_call
+from program_runs import PROGRAM, ROOT, RunFailed, default_folders, names, wrong_call
 from sequence_runs import CACHE, STAGES
 from speed_runs import FIT_STAGES, measure_benchmark, measure_fit, measure_track
 
 PAIRS = "bear_full,horse_full,liver_partial,human_views,snoopy_a"
 SEQUENCES = "liver_breath_render,invivo_heart_40,heart,kidney,stomach"
-
-
-def names(text):
-    return [name for name in text.split(",") if name]
 
 
 def counter(figures, key, decimals):

@@ -15,9 +15,9 @@ def gap_schemes(quick, with_rings):
     """Returns the schemes, batch first: the others' times are relative to its."""
     schemes = [BATCH, MARGINAL, DEFAULT, PAPER_KEEP, PAPER_CUT]
     if with_rings:
-        schemes += ring_schemes((0, 2) if quick else (0, 2, 4, 8), ("keep",), ("lazy",))
-        schemes += ring_schemes((2,), ("keep",), ("full",))
-        schemes += ring_schemes((0, 2) if quick else (0, 2, 8), ("cut",), ("lazy",))
+        schemes += ring_schemes((0, 2) if quick else (0, 2, 4, 8), "keep", "lazy")
+        schemes += ring_schemes((2,), "keep", "full")
+        schemes += ring_schemes((0, 2) if quick else (0, 2, 8), "cut", "lazy")
     return schemes
 
 

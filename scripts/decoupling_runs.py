@@ -56,12 +56,10 @@ PAPER_CUT = Scheme("paper's, cut", "two_level", 0, "cut", "full")
 DEFAULT = Scheme("default", None)
 
 
-def ring_schemes(rings, boundaries=("keep", "cut"), levels=("lazy", "full")):
-    """Returns two-level schemes of all combinations but those of the paper, which have names."""
-    schemes = [Scheme(f"{count} rings, {boundary}, {level2}", "two_level", count, boundary, level2)
-               for count in rings for boundary in boundaries for level2 in levels]
-    paper = [PAPER_KEEP.flags(), PAPER_CUT.flags()]
-    return [scheme for scheme in schemes if scheme.flags() not in paper]
+def ring_schemes(rings, boundary, level2):
+    """Returns two-level schemes of these numbers of rings."""
+    return [Scheme(f"{count} rings, {boundary}, {level2}", "two_level", count, boundary, level2)
+            for count in rings]
 
 
 def common_flags(options):

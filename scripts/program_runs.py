@@ -42,6 +42,11 @@ class Variant:
             wrong_call(f"{self.program} is not there; build it or name its folder")
 
 
+def names(text):
+    """Returns what a list has between its commas."""
+    return [name for name in text.split(",") if name]
+
+
 def default_folders():
     """Returns data/ and the folder that the environment variable CERES_ED_DATA names."""
     extra = os.environ.get("CERES_ED_DATA")

@@ -13,8 +13,8 @@ namespace ceres_ed {
 
 struct BoxTreeItem;
 
-// Items (points, triangles) in leaves of at most `leaf_size`, under nodes of at most four boxes. A
-// box need only be no smaller than what is in it, so that a tree may stay while its items move.
+// Items (triangles) in leaves of at most `leaf_size`, under nodes of at most four boxes. A box need
+// only be no smaller than what is in it.
 class BoxTree {
  public:
   static constexpr int kWidth = kLanes;

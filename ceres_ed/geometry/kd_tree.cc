@@ -140,9 +140,7 @@ KdTree::KdTree(KdTree&&) noexcept = default;
 KdTree& KdTree::operator=(KdTree&&) noexcept = default;
 
 Neighbor KdTree::Nearest(const Eigen::Vector3d& query) const {
-  NearestSet result(std::numeric_limits<double>::infinity());
-  impl_->Search(query, &result);
-  return result.best();
+  return NearestWithin(query, std::numeric_limits<double>::infinity());
 }
 
 void KdTree::Update() { impl_->tree.buildIndex(); }

@@ -19,8 +19,8 @@ struct Neighbor {
 };
 
 // A search tree over finite `points`, kept by reference: they must outlive the tree and stay as
-// they are. Every search is exact, breaks ties by the lowest index, finds nothing for a query that
-// is not finite, and may run on any number of threads at once.
+// they are between updates. Every search is exact, breaks ties by the lowest index, finds nothing
+// for a query that is not finite, and may run on any number of threads at once.
 class KdTree {
  public:
   explicit KdTree(const std::vector<Eigen::Vector3d>& points);

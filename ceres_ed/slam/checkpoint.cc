@@ -12,7 +12,7 @@ namespace {
 using nlohmann::json;
 
 constexpr char kFormat[] = "ceres_ed checkpoint";
-const std::vector<double> kProbe = {1.0};
+constexpr double kProbe = 1.0;
 
 // The parts of CBOR (RFC 8949) that a checkpoint has.
 constexpr char kOpenMap = '\xbf';
@@ -65,7 +65,7 @@ std::string FileHead(std::uint64_t length) {
   AppendText("version", &bytes);
   AppendHead(kUnsigned, kCheckpointVersion, &bytes);
   // Numbers stand in the machine's own order of bytes; its probe tells another machine's from them.
-  AppendArray("probe", kProbe, &bytes);
+  AppendArray("probe", std::vector<double>{kProbe}, &bytes);
   AppendText("payload", &bytes);
   AppendHead(kBytes, length, &bytes);
   return bytes;
@@ -101,8 +101,8 @@ Status WhatIsWrong(std::string_view bytes) {
     return Status::Error("is of checkpoint version " + file.value("version", json()).dump() +
                          ", expected " + std::to_string(kCheckpointVersion));
   }
-  std::vector<std::uint8_t> probe(kProbe.size() * sizeof(double));
-  std::memcpy(probe.data(), kProbe.data(), probe.size());
+  std::vector<std::uint8_t> probe(sizeof(kProbe));
+  std::memcpy(probe.data(), &kProbe, sizeof(kProbe));
   if (file.value("probe", json()) != json::binary(std::move(probe))) {
     return Status::Error("is from another kind of machine, expected one with this order of bytes");
   }

@@ -55,7 +55,7 @@ double DeformableSlam::FeatureDeviation() const {
 
 // Nodes that are recalled elsewhere than they were have reason to move.
 void DeformableSlam::NoteRecalled() {
-  const std::vector<int>& affected = memory_.Affected();
+  const std::vector<int> affected = memory_.Affected();
   std::vector<Eigen::Vector3d> before;
   before.reserve(affected.size());
   for (const int node : affected) before.push_back(map_.node_prior(node));

@@ -46,8 +46,9 @@ TissueMemory::Moment TissueMemory::MakeMoment(const std::vector<int>& nodes,
   int num_runs = 0;
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     num_runs += k == 0 || nodes[k] != nodes[k - 1] + 1;
-    moment.origin = moment.origin.cwiseMin(translation(nodes[k]));
-    high = high.cwiseMax(translation(nodes[k]));
+    const Eigen::Vector3d t = translation(nodes[k]);
+    moment.origin = moment.origin.cwiseMin(t);
+    high = high.cwiseMax(t);
   }
   moment.step = (high - moment.origin) / kMostSteps;
   moment.runs.reserve(num_runs);
@@ -55,11 +56,12 @@ TissueMemory::Moment TissueMemory::MakeMoment(const std::vector<int>& nodes,
   for (std::size_t k = 0; k < nodes.size(); ++k) {
     if (k == 0 || nodes[k] != nodes[k - 1] + 1) moment.runs.push_back({nodes[k], 0});
     ++moment.runs.back().count;
+    const Eigen::Vector3d t = translation(nodes[k]);
     std::array<std::uint16_t, 3> steps = {};
     for (int i = 0; i < 3; ++i) {
       // Where all nodes have the same there is no step.
       if (!(moment.step[i] > 0.0)) continue;
-      const double along = (translation(nodes[k])[i] - moment.origin[i]) / moment.step[i];
+      const double along = (t[i] - moment.origin[i]) / moment.step[i];
       steps[i] = static_cast<std::uint16_t>(std::clamp(std::round(along), 0.0, kMostSteps));
     }
     moment.translations.push_back(steps);

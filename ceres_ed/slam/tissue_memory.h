@@ -31,8 +31,8 @@ struct TissueMemoryOptions {
 // now, up to a common rigid motion, which is the gauge of map and camera.
 //
 // Within a frame: BeginFrame(), then Look() ahead of every solve, priors as they are asked for, and
-// Keep() at the end. The cost is that of the view and of the moments that share nodes with it, and
-// the memory six bytes a node of each moment, whatever else the map has.
+// Keep() at the end. The cost is that of the view and of the runs of nodes of all
+// moments, and the memory six bytes a node of each moment, whatever else the map has.
 class TissueMemory final : public NodePriorSource {
  public:
   explicit TissueMemory(const TissueMemoryOptions& options) : options_(options) {}

@@ -44,12 +44,12 @@ void Invert(const float* depth, int count, double* inverse) {
 constexpr int kUsualRadius = WindowOptions().radius;
 
 template <int kRadius>
-inline __attribute__((always_inline)) void AddInverses(const PixelRow& row,
-                                                       double* __restrict n,
-                                                       double* __restrict q,
-                                                       double* __restrict uq,
-                                                       double* __restrict vq,
-                                                       double* __restrict qq) {
+[[gnu::always_inline]] inline void AddInverses(const PixelRow& row,
+                                               double* __restrict n,
+                                               double* __restrict q,
+                                               double* __restrict uq,
+                                               double* __restrict vq,
+                                               double* __restrict qq) {
   const int radius = kRadius > 0 ? kRadius : row.radius;
   for (int i = row.begin; i < row.end; ++i) {
     double n_row = 0.0, q_row = 0.0, uq_row = 0.0, qq_row = 0.0;
@@ -71,12 +71,12 @@ inline __attribute__((always_inline)) void AddInverses(const PixelRow& row,
 }
 
 template <int kRadius>
-inline __attribute__((always_inline)) void AddPlaces(const PixelRow& row,
-                                                     double* __restrict u,
-                                                     double* __restrict v,
-                                                     double* __restrict uu,
-                                                     double* __restrict uv,
-                                                     double* __restrict vv) {
+[[gnu::always_inline]] inline void AddPlaces(const PixelRow& row,
+                                             double* __restrict u,
+                                             double* __restrict v,
+                                             double* __restrict uu,
+                                             double* __restrict uv,
+                                             double* __restrict vv) {
   const int radius = kRadius > 0 ? kRadius : row.radius;
   for (int i = row.begin; i < row.end; ++i) {
     double n_row = 0.0, u_row = 0.0, uu_row = 0.0;

@@ -1,13 +1,11 @@
 #include "ceres_ed/solver/block_cholesky.h"
 
-#include <ceres_ed/solver/double_buffer.h>
-#include <ceres_ed/solver/front_kernels.h>
-#include <ceres_ed/solver/front_layout.h>
-#include <ceres_ed/util/parallel.h>
+#include <ceres_ed/solver/block_vertices.h>
+#include <ceres_ed/solver/elimination_order.h>
+#include <ceres_ed/solver/front_tree.h>
+#include <ceres_ed/solver/multifrontal_factor.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -15,9 +13,6 @@
 
 namespace ceres_ed {
 namespace {
-
-// Updates of fewer multiplications are not worth a second thread.
-constexpr double kParallelUpdate = 4e6;
 
 // A factor of fewer multiplications than this takes less time than a better order of it.
 constexpr double kSmallFactor = 5e8;
@@ -46,381 +41,92 @@ FactorLayout LayOut(const BlockStructure& structure,
   return LayOutFactor(vertices, pieces, fronts);
 }
 
-// Adds rows [begin, ...) of a column of a child's update to a column of its parent.
-void AddRuns(const std::vector<RowRun>& runs, int begin, const double* from, double* to) {
-  for (const RowRun& run : runs) {
-    const int skipped = std::max(0, begin - run.from);
-    for (int i = skipped; i < run.length; ++i) to[run.to + i] += from[run.from + i];
-  }
-}
-
-// Solves L11 x = x for the first `width` of `num_rows` rows, and takes L21 x from the rest.
-void SolvePanel(int width, int num_rows, int stride, const double* panel, double* x) {
-  for (int c = 0; c < width; ++c) {
-    const double* column = panel + static_cast<std::ptrdiff_t>(c) * stride;
-    x[c] /= column[c];
-    for (int r = c + 1; r < width; ++r) x[r] -= column[r] * x[c];
-  }
-  const int below = RoundUpRows(width);
-  SubtractProduct(width, num_rows - below, panel + below, stride, x, x + below);
-}
-
-// Solves L11^T x = x - L21^T (rest) for them.
-void SolveTransposedPanel(int width, int num_rows, int stride, const double* panel, double* x) {
-  const int below = RoundUpRows(width);
-  SubtractTransposedProduct(width, num_rows - below, panel + below, stride, x + below, x);
-  for (int c = width - 1; c >= 0; --c) {
-    const double* column = panel + static_cast<std::ptrdiff_t>(c) * stride;
-    double sum = x[c];
-    for (int r = c + 1; r < width; ++r) sum -= column[r] * x[r];
-    x[c] = sum / column[c];
-  }
-}
-
 }  // namespace
 
 struct BlockCholesky::Impl {
-  Impl(const BlockStructure& block_structure, int trailing)
+  Impl(const BlockStructure& block_structure, int trailing, FactorMemory* memory)
       : structure(block_structure),
         num_trailing_rows(structure.num_rows() -
                           structure.row_offset(structure.num_blocks() - trailing)),
         vertices(structure, trailing),
-        layout(LayOut(structure, vertices, trailing)),
-        panels(layout.panel_size),
-        updates(layout.kept_size + layout.stack_size),
-        update_places(layout.fronts.size()),
-        ordered(layout.num_rows),
-        rows(layout.max_panel_rows) {}
+        factor(LayOut(structure, vertices, trailing), memory != nullptr ? memory : &own_memory),
+        ordered(structure.num_rows()) {}
 
-  bool Factorize(const double* values, const Eigen::VectorXd& diagonal, int num_threads);
-  bool FactorizeFront(int f, const double* values, int num_threads);
-  void TakePieces(const FrontLayout& front, const double* values);
-  void TakeColumns(const FrontLayout& front, const FrontLayout& child);
-  void TakeUpdate(const FrontLayout& front, const FrontLayout& child);
-  bool FactorizeOwnColumns(const FrontLayout& front);
-  void MakeUpdate(const FrontLayout& front, int num_threads);
-
-  double* Panel(const FrontLayout& front) const { return panels.data() + front.panel; }
-  // Of the columns that aren't dual, from their first row on.
-  double* PrimalPanel(const FrontLayout& front) const {
-    return Panel(front) + static_cast<std::ptrdiff_t>(front.dual_width) * front.panel_stride +
-           front.own_row;
-  }
-  double* Update(const FrontLayout& front) const {
-    return update_places[&front - layout.fronts.data()];
-  }
-  void PlaceUpdate(int f, int thread);
-
-  void ToOrdered(const Eigen::VectorXd& values);
+  void ToOrdered(const Eigen::VectorXd& rows);
   Eigen::VectorXd FromOrdered() const;
-  void TakeOwnRows(const FrontLayout& front);
-  void PutOwnRows(const FrontLayout& front);
-  void SolveForward();
-  void ChangeSignOfDualRows();
-  void SolveBackward();
-  Eigen::MatrixXd TrailingFactor() const;
 
   const BlockStructure& structure;
   const int num_trailing_rows;
   const BlockVertices vertices;
-  const FactorLayout layout;
-  const DoubleBuffer panels;
-  // Those that outlive their task, then a stack of each thread.
-  DoubleBuffer updates;
-  // Of each front: where its update is.
-  std::vector<double*> update_places;
+  FactorMemory own_memory;
+  MultifrontalFactor factor;
   // Rows in the order of elimination: what is added to the diagonal, then what is solved for.
   Eigen::VectorXd ordered;
-  // Rows of a front's panel, while it is solved for.
-  Eigen::VectorXd rows;
 };
 
-void BlockCholesky::Impl::TakePieces(const FrontLayout& front, const double* values) {
-  double* panel = Panel(front);
-  for (int p = front.first_piece; p < front.last_piece; ++p) {
-    const PanelPiece& piece = layout.pieces[p];
-    const double* from = values + piece.value;
-    double* to = panel + static_cast<std::ptrdiff_t>(piece.panel_column) * front.panel_stride +
-                 piece.panel_row;
-    for (int c = 0; c < piece.columns; ++c, to += front.panel_stride) {
-      if (piece.transposed) {
-        for (int r = 0; r < piece.rows; ++r) to[r] = from[r * piece.stride + c];
-      } else {
-        for (int r = 0; r < piece.rows; ++r) to[r] = from[c * piece.stride + r];
-      }
-    }
-  }
-  for (int c = 0; c < front.width; ++c) {
-    panel[static_cast<std::ptrdiff_t>(c) * front.panel_stride + front.RowOfColumn(c)] +=
-        ordered[front.first_position + c];
-  }
-}
-
-// What a child's update has for the columns of its parent.
-void BlockCholesky::Impl::TakeColumns(const FrontLayout& front, const FrontLayout& child) {
-  for (const RowRun& columns : child.to_columns) {
-    for (int c = 0; c < columns.length; ++c) {
-      const int column = columns.from + c;
-      const double* from =
-          Update(child) + static_cast<std::ptrdiff_t>(column) * child.update_stride;
-      double* to = Panel(front) + static_cast<std::ptrdiff_t>(front.ColumnOfRow(columns.to + c)) *
-                                      front.panel_stride;
-      AddRuns(child.to_columns, column, from, to);
-      AddRuns(child.to_update, column, from, to + front.below_row);
-    }
-  }
-}
-
-// What it has for the parent's own update.
-void BlockCholesky::Impl::TakeUpdate(const FrontLayout& front, const FrontLayout& child) {
-  for (const RowRun& columns : child.to_update) {
-    for (int c = 0; c < columns.length; ++c) {
-      const int column = columns.from + c;
-      AddRuns(child.to_update,
-              column,
-              Update(child) + static_cast<std::ptrdiff_t>(column) * child.update_stride,
-              Update(front) + static_cast<std::ptrdiff_t>(columns.to + c) * front.update_stride);
-    }
-  }
-}
-
-void BlockCholesky::Impl::MakeUpdate(const FrontLayout& front, int num_threads) {
-  OuterProduct primal;
-  primal.width = front.width - front.dual_width;
-  primal.rows = front.padded_update_rows;
-  primal.L21 = PrimalPanel(front) + front.below_row - front.own_row;
-  primal.stride = front.panel_stride;
-  primal.update = Update(front);
-  primal.update_stride = front.update_stride;
-  OuterProduct dual = primal;
-  dual.width = front.dual_width;
-  dual.L21 = Panel(front) + front.below_row;
-  dual.sign = 1.0;
-  dual.accumulate = true;
-  const auto make = [&](int first, int last) {
-    AddOuterProduct(primal, first, last);
-    if (front.dual_width > 0) AddOuterProduct(dual, first, last);
-  };
-  const int rows = front.padded_update_rows;
-  if (num_threads <= 1 || 0.5 * front.width * rows * double(rows) < kParallelUpdate) {
-    make(0, rows);
-    return;
-  }
-  // Short strips, for columns get shorter from left to right.
-  const int num_strips = rows / kRowUnit;
-  std::atomic<int> next{0};
-  ParallelFor(num_threads, num_threads, [&](int, int) {
-    constexpr int kStrips = 4;
-    for (int s = next.fetch_add(kStrips); s < num_strips; s = next.fetch_add(kStrips)) {
-      make(s * kRowUnit, std::min(num_strips, s + kStrips) * kRowUnit);
-    }
-  });
-}
-
-// L S L^T with S = -1 for dual columns: with the sign of these changed they are factorised like
-// others, but what they take from the rest is added to it.
-bool BlockCholesky::Impl::FactorizeOwnColumns(const FrontLayout& front) {
-  double* panel = Panel(front);
-  if (front.dual_width > 0) {
-    const std::size_t size = static_cast<std::size_t>(front.panel_stride) * front.dual_width;
-    for (std::size_t i = 0; i < size; ++i) panel[i] = -panel[i];
-    if (!FactorizePanel(front.dual_width, front.panel_rows(), front.panel_stride, panel)) {
-      return false;
-    }
-    OuterProduct dual;
-    dual.width = front.dual_width;
-    dual.rows = front.panel_rows() - front.own_row;
-    dual.L21 = panel + front.own_row;
-    dual.stride = front.panel_stride;
-    dual.sign = 1.0;
-    dual.accumulate = true;
-    dual.update = PrimalPanel(front);
-    dual.update_stride = front.panel_stride;
-    AddOuterProduct(dual, 0, front.width - front.dual_width);
-  }
-  return FactorizePanel(front.width - front.dual_width,
-                        front.panel_rows() - front.own_row,
-                        front.panel_stride,
-                        PrimalPanel(front));
-}
-
-bool BlockCholesky::Impl::FactorizeFront(int f, const double* values, int num_threads) {
-  const FrontLayout& front = layout.fronts[f];
-  std::fill_n(Panel(front), static_cast<std::size_t>(front.panel_stride) * front.width, 0.0);
-  TakePieces(front, values);
-  for (const int child : front.children) TakeColumns(front, layout.fronts[child]);
-  if (!FactorizeOwnColumns(front)) return false;
-  if (front.update_rows == 0) return true;
-  MakeUpdate(front, num_threads);
-  for (const int child : front.children) TakeUpdate(front, layout.fronts[child]);
-  return true;
-}
-
-void BlockCholesky::Impl::PlaceUpdate(int f, int thread) {
-  const FrontLayout& front = layout.fronts[f];
-  update_places[f] = updates.data() + front.update;
-  if (!front.is_kept) update_places[f] += layout.kept_size + thread * layout.stack_size;
-}
-
-bool BlockCholesky::Impl::Factorize(const double* values,
-                                    const Eigen::VectorXd& diagonal,
-                                    int num_threads) {
-  ToOrdered(diagonal);
-  const int num_tasks = static_cast<int>(layout.tasks.size());
-  const int task_threads = std::max(1, std::min(num_threads, num_tasks));
-  const std::size_t update_size = layout.kept_size + task_threads * layout.stack_size;
-  if (update_size > updates.size()) updates = DoubleBuffer(update_size);
-  std::atomic<bool> ok{true};
-  std::atomic<int> next{0};
-  ParallelFor(task_threads, task_threads, [&](int begin, int end) {
-    for (int thread = begin; thread < end; ++thread) {
-      for (int t = next++; t < num_tasks && ok; t = next++) {
-        for (int f = layout.tasks[t].first; f < layout.tasks[t].last && ok; ++f) {
-          PlaceUpdate(f, thread);
-          if (!FactorizeFront(f, values, 1)) ok = false;
-        }
-      }
-    }
-  });
-  int task = 0;
-  for (int f = 0; f < static_cast<int>(layout.fronts.size()) && ok; ++f) {
-    if (task < num_tasks && layout.tasks[task].first == f) {
-      f = layout.tasks[task++].last - 1;
-      continue;
-    }
-    PlaceUpdate(f, 0);
-    if (!FactorizeFront(f, values, num_threads)) ok = false;
-  }
-  return ok;
-}
-
-void BlockCholesky::Impl::ToOrdered(const Eigen::VectorXd& values) {
+void BlockCholesky::Impl::ToOrdered(const Eigen::VectorXd& rows) {
   for (int v = 0; v < vertices.size(); ++v) {
     const BlockVertex& vertex = vertices[v];
-    std::copy_n(values.data() + structure.row_offset(vertex.block) + vertex.offset,
+    std::copy_n(rows.data() + structure.row_offset(vertex.block) + vertex.offset,
                 vertex.size,
-                ordered.data() + layout.positions[v]);
+                ordered.data() + factor.layout().positions[v]);
   }
 }
 
 Eigen::VectorXd BlockCholesky::Impl::FromOrdered() const {
-  Eigen::VectorXd values(structure.num_rows());
+  Eigen::VectorXd rows(structure.num_rows());
   for (int v = 0; v < vertices.size(); ++v) {
     const BlockVertex& vertex = vertices[v];
-    std::copy_n(ordered.data() + layout.positions[v],
+    std::copy_n(ordered.data() + factor.layout().positions[v],
                 vertex.size,
-                values.data() + structure.row_offset(vertex.block) + vertex.offset);
+                rows.data() + structure.row_offset(vertex.block) + vertex.offset);
   }
-  return values;
+  return rows;
 }
 
-// `rows` has the rows of the panel.
-void BlockCholesky::Impl::TakeOwnRows(const FrontLayout& front) {
-  const double* own = ordered.data() + front.first_position;
-  rows.head(front.below_row).setZero();
-  std::copy_n(own, front.dual_width, rows.data());
-  std::copy_n(own + front.dual_width, front.width - front.dual_width, &rows[front.own_row]);
-}
-
-void BlockCholesky::Impl::PutOwnRows(const FrontLayout& front) {
-  double* own = ordered.data() + front.first_position;
-  std::copy_n(rows.data(), front.dual_width, own);
-  std::copy_n(&rows[front.own_row], front.width - front.dual_width, own + front.dual_width);
-}
-
-void BlockCholesky::Impl::SolveForward() {
-  for (const FrontLayout& front : layout.fronts) {
-    TakeOwnRows(front);
-    rows.segment(front.below_row, front.padded_update_rows).setZero();
-    if (front.dual_width > 0) {
-      SolvePanel(
-          front.dual_width, front.panel_rows(), front.panel_stride, Panel(front), rows.data());
-    }
-    SolvePanel(front.width - front.dual_width,
-               front.panel_rows() - front.own_row,
-               front.panel_stride,
-               PrimalPanel(front),
-               &rows[front.own_row]);
-    PutOwnRows(front);
-    const double* below = &rows[front.below_row];
-    for (const RowRun& run : front.below) {
-      for (int i = 0; i < run.length; ++i) ordered[run.to + i] += below[run.from + i];
-    }
-  }
-}
-
-void BlockCholesky::Impl::ChangeSignOfDualRows() {
-  for (const FrontLayout& front : layout.fronts) {
-    ordered.segment(front.first_position, front.dual_width) *= -1.0;
-  }
-}
-
-void BlockCholesky::Impl::SolveBackward() {
-  for (auto front = layout.fronts.rbegin(); front != layout.fronts.rend(); ++front) {
-    TakeOwnRows(*front);
-    double* below = rows.data() + front->below_row;
-    std::fill_n(below, front->padded_update_rows, 0.0);
-    for (const RowRun& run : front->below) {
-      for (int i = 0; i < run.length; ++i) below[run.from + i] = ordered[run.to + i];
-    }
-    SolveTransposedPanel(front->width - front->dual_width,
-                         front->panel_rows() - front->own_row,
-                         front->panel_stride,
-                         PrimalPanel(*front),
-                         &rows[front->own_row]);
-    if (front->dual_width > 0) {
-      SolveTransposedPanel(
-          front->dual_width, front->panel_rows(), front->panel_stride, Panel(*front), rows.data());
-    }
-    PutOwnRows(*front);
-  }
-}
-
-Eigen::MatrixXd BlockCholesky::Impl::TrailingFactor() const {
-  Eigen::MatrixXd trailing = Eigen::MatrixXd::Zero(num_trailing_rows, num_trailing_rows);
-  if (num_trailing_rows == 0) return trailing;
-  const FrontLayout& front = layout.fronts.back();
-  CHECK_EQ(front.width, num_trailing_rows);
-  for (int c = 0; c < front.width; ++c) {
-    const double* column = Panel(front) + static_cast<std::ptrdiff_t>(c) * front.panel_stride;
-    std::copy(column + c, column + front.width, &trailing(c, c));
-  }
-  return trailing;
-}
-
-BlockCholesky::BlockCholesky(const BlockStructure& structure, int num_trailing)
-    : impl_(std::make_unique<Impl>(structure, num_trailing)) {}
+BlockCholesky::BlockCholesky(const BlockStructure& structure,
+                             int num_trailing,
+                             FactorMemory* memory)
+    : impl_(std::make_unique<Impl>(structure, num_trailing, memory)) {}
 
 BlockCholesky::~BlockCholesky() = default;
 
 bool BlockCholesky::Factorize(const double* values,
                               const Eigen::VectorXd& diagonal,
                               int num_threads) {
-  return impl_->Factorize(values, diagonal, num_threads);
+  impl_->ToOrdered(diagonal);
+  return impl_->factor.Factorize(values, impl_->ordered, num_threads);
 }
 
 Eigen::VectorXd BlockCholesky::Solve(const Eigen::VectorXd& rhs) {
   impl_->ToOrdered(rhs);
-  impl_->SolveForward();
-  impl_->ChangeSignOfDualRows();
-  impl_->SolveBackward();
+  impl_->factor.SolveForward(&impl_->ordered);
+  impl_->factor.ChangeSignOfDualRows(&impl_->ordered);
+  impl_->factor.SolveBackward(&impl_->ordered);
   return impl_->FromOrdered();
 }
 
 Eigen::VectorXd BlockCholesky::SolveLower(const Eigen::VectorXd& rhs) {
   impl_->ToOrdered(rhs);
-  impl_->SolveForward();
+  impl_->factor.SolveForward(&impl_->ordered);
   return impl_->FromOrdered();
 }
 
 Eigen::VectorXd BlockCholesky::SolveUpper(const Eigen::VectorXd& rhs) {
   impl_->ToOrdered(rhs);
-  impl_->SolveBackward();
+  impl_->factor.SolveBackward(&impl_->ordered);
   return impl_->FromOrdered();
 }
 
-Eigen::MatrixXd BlockCholesky::TrailingFactor() const { return impl_->TrailingFactor(); }
+Eigen::MatrixXd BlockCholesky::TrailingFactor() const {
+  if (impl_->num_trailing_rows == 0) return {};
+  const Eigen::MatrixXd trailing = impl_->factor.LastTriangle();
+  CHECK_EQ(trailing.rows(), impl_->num_trailing_rows);
+  return trailing;
+}
 
-double BlockCholesky::NumOperations() const { return impl_->layout.operations; }
+double BlockCholesky::NumOperations() const { return impl_->factor.layout().operations; }
+
+std::size_t BlockCholesky::NumValues() const { return impl_->factor.layout().panel_size; }
 
 }  // namespace ceres_ed

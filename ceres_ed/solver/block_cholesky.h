@@ -3,7 +3,9 @@
 #define CERES_ED_SOLVER_BLOCK_CHOLESKY_H_
 
 #include <ceres_ed/solver/block_structure.h>
+#include <ceres_ed/solver/double_buffer.h>
 
+#include <cstddef>
 #include <memory>
 
 #include <Eigen/Core>
@@ -19,7 +21,10 @@ class BlockCholesky {
  public:
   // Analyses `structure`, which must outlive this. Its last `num_trailing` blocks come last in the
   // order of elimination, too, so that the factor ends in theirs.
-  explicit BlockCholesky(const BlockStructure& structure, int num_trailing = 0);
+  // `memory` outlives this and serves no other factor meanwhile; null: memory of its own.
+  explicit BlockCholesky(const BlockStructure& structure,
+                         int num_trailing = 0,
+                         FactorMemory* memory = nullptr);
   ~BlockCholesky();
   BlockCholesky(const BlockCholesky&) = delete;
   BlockCholesky& operator=(const BlockCholesky&) = delete;
@@ -43,6 +48,9 @@ class BlockCholesky {
 
   // Multiplications that one factorisation takes.
   double NumOperations() const;
+
+  // Numbers that the factor keeps.
+  std::size_t NumValues() const;
 
  private:
   struct Impl;

@@ -213,7 +213,7 @@ void BlockLevelSolver::UpdateStructure(const ProblemConfig& config) {
   cholesky_.reset();
   structure_ = std::make_unique<BlockStructure>(sizes_, pairs_, equations_.num_dual());
   pairs_ = structure_->Pairs();
-  cholesky_ = std::make_unique<BlockCholesky>(*structure_);
+  cholesky_ = std::make_unique<BlockCholesky>(*structure_, /*num_trailing=*/0, &memory_);
   CHECK(equations_.SetStructure(structure_.get()));
 }
 

@@ -31,6 +31,7 @@ class BlockLevelSolver final : public LevelSolver {
   // Those of the last problem, kept for their memory.
   NormalEquations equations_;
   std::vector<double> values_;
+  FactorMemory memory_;
   std::vector<char> variable_nodes_;
   std::vector<int> sizes_;
   std::vector<BlockPair> pairs_;

@@ -46,6 +46,13 @@ void WishForLargePages(void* data, std::size_t bytes) {
 
 DoubleBuffer::DoubleBuffer(std::size_t size) : size_(size), data_(Allocate(size)) {}
 
+void DoubleBuffer::Require(std::size_t size) {
+  if (size <= size_) return;
+  // Freed ahead of the new one: both at once would be the peak.
+  data_.reset();
+  *this = DoubleBuffer(size_ == 0 ? size : size + size / 4);
+}
+
 void DoubleBuffer::Free::operator()(double* data) const { std::free(data); }
 
 }  // namespace ceres_ed

@@ -17,6 +17,10 @@ class DoubleBuffer {
  public:
   explicit DoubleBuffer(std::size_t size);
 
+  // Sees to it that there are `size` doubles; what was there is gone when there were fewer. A
+  // little more than asked, so that sizes that go up and down settle.
+  void Require(std::size_t size);
+
   double* data() const { return data_.get(); }
   std::size_t size() const { return size_; }
 
@@ -27,6 +31,12 @@ class DoubleBuffer {
 
   std::size_t size_;
   std::unique_ptr<double, Free> data_;
+};
+
+// The memory of a factorisation, to be handed from one to the next.
+struct FactorMemory {
+  DoubleBuffer panels{0};
+  DoubleBuffer updates{0};
 };
 
 }  // namespace ceres_ed

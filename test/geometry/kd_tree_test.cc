@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -109,6 +110,23 @@ TEST(KdTree, AHintChangesNothing) {
       }
     }
   }
+}
+
+// Every point once, also where many are at one place.
+TEST(KdTree, HasAllPointsInItsOrder) {
+  std::vector<Eigen::Vector3d> points = RandomPoints(100, 6);
+  points.resize(150, points.front());
+  KdTree tree(points);
+  std::vector<int> all(points.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> order = tree.order();
+  std::sort(order.begin(), order.end());
+  EXPECT_EQ(order, all);
+  for (Eigen::Vector3d& point : points) point *= -2.0;
+  tree.Update();
+  order = tree.order();
+  std::sort(order.begin(), order.end());
+  EXPECT_EQ(order, all);
 }
 
 TEST(KdTree, AnUpdateFindsPointsWhereTheyAreNow) {

@@ -190,15 +190,14 @@ TEST(Matching, CountsTheDistanceBeyondThatDiscFromItsRim) {
 TEST(Matching, FindsTheSameWithTheMemoryOfOtherPlaces) {
   const Surface source(MakeBareSphere(150, 1));
   const Surface target(MakeBareSphere(150, 2));
-  std::vector<Eigen::Vector3d> moved = source.cloud().points;
-  for (Eigen::Vector3d& point : moved) point += Eigen::Vector3d(0.3, -0.1, 0.2) * point.x();
+  std::vector<Eigen::Vector3d> points = source.cloud().points;
   const std::vector<int> all = All(source.cloud());
-  const MovedSource before{&source, &all, &source.cloud().points, &source.cloud().normals};
-  const MovedSource after{&source, &all, &moved, &source.cloud().normals};
+  const MovedSource moving{&source, &all, &points, &source.cloud().normals};
   MatchMemory memory;
-  MatchBothWays(before, target, all, MatchingOptions(), &memory);
-  const Matches with = MatchBothWays(after, target, all, MatchingOptions(), &memory);
-  const Matches without = MatchBothWays(after, target, all, MatchingOptions());
+  MatchBothWays(moving, target, all, MatchingOptions(), &memory);
+  for (Eigen::Vector3d& point : points) point += Eigen::Vector3d(0.3, -0.1, 0.2) * point.x();
+  const Matches with = MatchBothWays(moving, target, all, MatchingOptions(), &memory);
+  const Matches without = MatchBothWays(moving, target, all, MatchingOptions());
   ASSERT_EQ(with.inliers, without.inliers);
   for (int i = 0; i < with.inliers; ++i) {
     EXPECT_EQ(with.correspondences[i].point, without.correspondences[i].point);

@@ -187,6 +187,37 @@ TEST(BlockCholesky, EliminatesDualBlocks) {
   }
 }
 
+// A chain that nothing but one dual unknown, joined to all of it, holds where it is. By degree
+// alone the dual would come last, and the last row of the chain would be divided by next to
+// nothing.
+TEST(BlockCholesky, HoldsWhatIsFreeUntilTheDualsHaveHadTheirSay) {
+  constexpr int kLength = 20;
+  std::vector<BlockPair> pairs;
+  for (int i = 0; i < kLength; ++i) {
+    if (i > 0) pairs.push_back({i, i - 1});
+    pairs.push_back({kLength, i});
+  }
+  const BlockStructure structure(std::vector<int>(kLength + 1, 1), pairs, /*num_dual=*/1);
+  std::vector<double> values(structure.num_values());
+  const auto set = [&](int row, int column, double value) {
+    values[structure.value_offset(structure.FindEntry(row, column))] = value;
+  };
+  for (int i = 0; i < kLength; ++i) {
+    set(i, i, i == 0 || i + 1 == kLength ? 1.0 : 2.0);
+    if (i > 0) set(i, i - 1, -1.0);
+    set(kLength, i, 1.0);
+  }
+  set(kLength, kLength, -1.0);
+  Eigen::VectorXd damping = Eigen::VectorXd::Constant(kLength + 1, 1e-15);
+  damping[kLength] = 0.0;
+  Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(kLength + 1, 1.0, 2.0);
+  rhs[kLength] = 0.0;
+  BlockCholesky cholesky(structure);
+  ASSERT_TRUE(cholesky.Factorize(values.data(), damping));
+  const Eigen::VectorXd solution = cholesky.Solve(rhs);
+  EXPECT_LT((DenseOf(structure, values) * solution - rhs).norm(), 1e-12 * rhs.norm());
+}
+
 // Large enough for several tasks, for updates on several threads and for both orderings.
 TEST(BlockCholesky, GivesTheSameBitsOnAnyNumberOfThreads) {
   const BlockStructure structure = Sheet(60, 30, [](int, int) { return true; });

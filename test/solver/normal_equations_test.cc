@@ -1,6 +1,8 @@
 // The normal equations against Ceres.
 #include "ceres_ed/solver/normal_equations.h"
 
+#include <ceres_ed/solver/block_cholesky.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <memory>
@@ -83,6 +85,68 @@ TEST(NormalEquations, KnowWhichPairsShareTranslationsAlone) {
       EXPECT_FALSE(block.isZero(0.0));
     }
   }
+}
+
+// Points on 7 x 4 nodes that are few enough to have dual unknowns, and their equations.
+struct DualEquations {
+  DualEquations() : problem(MakeTestProblem(Options())), builder(MakeBuilder(problem, kHuber)) {
+    config = FullConfig(problem.graph.num_nodes(), false);
+    state = RandomState(problem, 0.1, 5);
+    equations.Build(*builder, config, DualPoints::kWhereFew);
+    structure = std::make_unique<BlockStructure>(
+        equations.BlockSizes(), equations.BlockPairs(), equations.num_dual());
+    EXPECT_TRUE(equations.SetStructure(structure.get()));
+    EXPECT_TRUE(equations.Evaluate(state, 2, &assembled.cost, &values, &assembled.gradient));
+  }
+
+  static TestProblemOptions Options() {
+    TestProblemOptions options;
+    options.columns = 7;
+    options.rows = 4;
+    options.target_deviation = 0.1;
+    return options;
+  }
+
+  static constexpr LossSpec kHuber{LossType::kHuber, 0.05};
+  TestProblem problem;
+  std::unique_ptr<ProblemBuilder> builder;
+  ProblemConfig config;
+  DeformationState state;
+  NormalEquations equations;
+  std::unique_ptr<BlockStructure> structure;
+  std::vector<double> values;
+  Assembled assembled;
+};
+
+TEST(NormalEquations, AreThoseOfAllPointsOnceDualUnknownsAreEliminated) {
+  DualEquations dual;
+  ASSERT_EQ(dual.equations.num_dual(), static_cast<int>(dual.problem.points.size()));
+  const Eigen::Index n = dual.structure->num_primal_rows();
+  const Eigen::Index num_dual = dual.structure->num_rows() - n;
+  const Eigen::MatrixXd K = DenseOf(*dual.structure, dual.values);
+  EXPECT_EQ(K.bottomRightCorner(num_dual, num_dual),
+            -Eigen::MatrixXd::Identity(num_dual, num_dual));
+  EXPECT_TRUE(dual.assembled.gradient.tail(num_dual).isZero(0.0));
+  const Eigen::MatrixXd J = K.bottomLeftCorner(num_dual, n);
+  dual.assembled.H = K.topLeftCorner(n, n) + J.transpose() * J;
+  dual.assembled.gradient.conservativeResize(n);
+  ExpectClose(dual.assembled, AssembleWithCeres(*dual.builder, dual.config, &dual.state));
+  const Eigen::VectorXd diagonal = dual.structure->Diagonal(dual.values).head(n);
+  EXPECT_LT((diagonal - dual.assembled.H.diagonal()).norm(), 1e-12 * diagonal.norm());
+}
+
+TEST(NormalEquations, WithDualUnknownsAreSolvedAsWellAsWithout) {
+  DualEquations dual;
+  const BlockStructure& structure = *dual.structure;
+  const Eigen::Index n = structure.num_primal_rows();
+  Eigen::VectorXd damping = Eigen::VectorXd::Zero(structure.num_rows());
+  damping.head(n) = 1e-13 * structure.Diagonal(dual.values).head(n);
+  BlockCholesky cholesky(structure);
+  ASSERT_TRUE(cholesky.Factorize(dual.values.data(), damping));
+  const Eigen::VectorXd step = cholesky.Solve(dual.assembled.gradient).head(n);
+  const Eigen::MatrixXd H = AssembleWithCeres(*dual.builder, dual.config, &dual.state).H;
+  const Eigen::VectorXd g = dual.assembled.gradient.head(n);
+  EXPECT_LT((H * step - g).norm(), 1e-10 * g.norm());
 }
 
 TEST(NormalEquations, RefuseAStructureThatLacksAnAffinePair) {
