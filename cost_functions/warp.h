@@ -80,6 +80,20 @@ Eigen::Matrix<T, 3, 1> MapToCamera(const T* rotation,
   return R_c * point_in_map + T_c;
 }
 
+// The derivative of R_c p by the entries x y z w of R_c's quaternion, 3 x 4:
+// R p = p + 2 w (u x p) + 2 u x (u x p), with q = (u, w).
+inline Eigen::Matrix<double, 3, kRotationSize> RotatedByQuaternion(const Eigen::Quaterniond& R_c,
+                                                                   const Eigen::Vector3d& p) {
+  const Eigen::Vector3d u = R_c.vec();
+  Eigen::Matrix3d p_cross;
+  p_cross << 0.0, -p.z(), p.y(), p.z(), 0.0, -p.x(), -p.y(), p.x(), 0.0;
+  Eigen::Matrix<double, 3, kRotationSize> derivative;
+  derivative.leftCols<3>() = 2.0 * (u.dot(p) * Eigen::Matrix3d::Identity() + u * p.transpose() -
+                                    2.0 * p * u.transpose() - R_c.w() * p_cross);
+  derivative.col(3) = 2.0 * u.cross(p);
+  return derivative;
+}
+
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_COST_FUNCTIONS_WARP_H_

@@ -111,17 +111,8 @@ class WarpedPointCost final : public ceres::CostFunction {
                                   const PointJacobian& by_warped,
                                   double** jacobians) {
     if (jacobians[0] != nullptr) {
-      // R p = p + 2 w (u x p) + 2 u x (u x p), with q = (u, w).
-      const Eigen::Vector3d u = R_c.vec();
-      Eigen::Matrix<double, 3, kRotationSize> by_quaternion;
-      Eigen::Matrix3d p_cross;
-      p_cross << 0.0, -p.z(), p.y(), p.z(), 0.0, -p.x(), -p.y(), p.x(), 0.0;
-      by_quaternion.leftCols<3>() =
-          2.0 * (u.dot(p) * Eigen::Matrix3d::Identity() + u * p.transpose() -
-                 2.0 * p * u.transpose() - R_c.w() * p_cross);
-      by_quaternion.col(3) = 2.0 * u.cross(p);
       BlockJacobian<kRotationSize> J(jacobians[0]);
-      J = by_warped * by_quaternion;
+      J = by_warped * RotatedByQuaternion(R_c, p);
     }
     if (jacobians[1] != nullptr) {
       BlockJacobian<kTranslationSize> J(jacobians[1]);

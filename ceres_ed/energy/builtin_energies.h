@@ -6,8 +6,7 @@
 
 namespace ceres_ed {
 
-// Adds rotation, regularization, node_prior, pose_prior, point_to_plane, point_to_point and
-// landmark. CHECK-fails when one of these names is taken: call it first.
+// Adds the energies of catalogue/: CHECK-fails when one of their names is taken. Call it first.
 void RegisterBuiltinEnergies(EnergyRegistry* registry);
 
 }  // namespace ceres_ed

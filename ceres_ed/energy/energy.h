@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -39,6 +40,41 @@ struct EnergyParameter {
   std::string doc;
 };
 
+// Parameters in a line: RealParameter("height", "length", -10.0, 10.0, 0.0, "where the floor is").
+inline EnergyParameter RealParameter(std::string name,
+                                     std::string unit,
+                                     double minimum,
+                                     double maximum,
+                                     double default_value,
+                                     std::string doc) {
+  return {std::move(name),
+          ParameterType::kReal,
+          std::move(unit),
+          minimum,
+          maximum,
+          default_value,
+          std::move(doc)};
+}
+inline EnergyParameter IntegerParameter(
+    std::string name, double minimum, double maximum, double default_value, std::string doc) {
+  return {std::move(name),
+          ParameterType::kInteger,
+          "-",
+          minimum,
+          maximum,
+          default_value,
+          std::move(doc)};
+}
+inline EnergyParameter FlagParameter(std::string name, bool default_value, std::string doc) {
+  return {std::move(name),
+          ParameterType::kFlag,
+          "-",
+          0.0,
+          1.0,
+          default_value ? 1.0 : 0.0,
+          std::move(doc)};
+}
+
 // What a registry says of an energy.
 struct EnergyInfo {
   std::string name;
@@ -50,7 +86,14 @@ struct EnergyInfo {
   std::string unit;
   EnergyKind kind = EnergyKind::kPrior;
   std::vector<EnergyParameter> parameters;
+  // The plugin that it came with ("plugin './mine.so'"); empty for others. Set by the loader.
+  std::string origin;
 };
+
+// Returns "energy 'mine' of plugin './mine.so'": what a message about it begins with.
+inline std::string DescribeEnergy(const std::string& name, const std::string& origin) {
+  return "energy '" + name + "'" + (origin.empty() ? "" : " of " + origin);
+}
 
 // A parameter block that a residual touches.
 struct BlockRef {

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <set>
 #include <sstream>
+#include <stdexcept>
 #include <utility>
 
 namespace ceres_ed {
@@ -67,7 +69,10 @@ StatusOr<ParameterValues> ParameterValues::Create(const EnergyInfo& info,
 
 double ParameterValues::Get(const std::string& name) const {
   const auto found = values_.find(name);
-  CHECK(found != values_.end()) << "undeclared parameter '" << name << "'";
+  if (found == values_.end()) {
+    throw std::invalid_argument("asks for parameter '" + name + "', which it has not declared");
+  }
+  read_.insert(name);
   return found->second;
 }
 
@@ -88,6 +93,7 @@ Status EnergyRegistry::Register(EnergyInfo info, Factory factory) {
     Status status = CheckValue(info, parameter, parameter.default_value);
     if (!status.ok()) return status;
   }
+  if (info.origin.empty()) info.origin = origin_;
   const std::string name = info.name;
   entries_[name] = Entry{std::move(info), std::move(factory)};
   return Status::Ok();
@@ -114,10 +120,31 @@ StatusOr<std::unique_ptr<EnergyTerm>> EnergyRegistry::Create(
     }
     return Status::Error("no energy '" + name + "'; known: " + known);
   }
-  StatusOr<ParameterValues> values = ParameterValues::Create(found->second.info, parameters);
+  const EnergyInfo& info = found->second.info;
+  const StatusOr<ParameterValues> values = ParameterValues::Create(info, parameters);
   if (!values.ok()) return values.status();
-  std::unique_ptr<EnergyTerm> term = found->second.factory(*values);
-  if (term == nullptr) return Status::Error("energy '" + name + "': its factory made nothing");
+  const std::string energy = DescribeEnergy(name, info.origin);
+  std::unique_ptr<EnergyTerm> term;
+  try {
+    term = found->second.factory(*values);
+    if (term == nullptr) return Status::Error(energy + ": its factory made nothing");
+    if (term->kind() != info.kind) {
+      return Status::Error(energy + ": its term is not of the kind that it is registered as");
+    }
+  } catch (const std::exception& error) {
+    return Status::Error(energy + ": " + error.what());
+  } catch (...) {
+    return Status::Error(energy + ": its factory threw something that is no std::exception");
+  }
+  for (const auto& [parameter, value] : parameters) {
+    if (values->WasRead(parameter)) continue;
+    std::string used;
+    for (const EnergyParameter& known : info.parameters) {
+      if (values->WasRead(known.name)) used += (used.empty() ? "" : ", ") + known.name;
+    }
+    return Status::Error(energy + ": parameter '" + parameter +
+                         "' has no use; it uses: " + (used.empty() ? "none" : used));
+  }
   return term;
 }
 

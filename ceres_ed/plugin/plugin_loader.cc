@@ -4,6 +4,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <exception>
 #include <fstream>
 #include <sstream>
 #include <vector>
@@ -67,7 +68,15 @@ Status RegisterFrom(void* library, const std::string& path, EnergyRegistry* regi
   const auto register_energies = Find<RegisterFunction>(library, kRegisterName);
   if (register_energies == nullptr) return MissingSymbol(path, kRegisterName);
   Status status = Status::Ok();
-  register_energies(registry, &status);
+  registry->SetOrigin("plugin '" + path + "'");
+  try {
+    register_energies(registry, &status);
+  } catch (const std::exception& error) {
+    status = Status::Error(std::string("registering its energies threw: ") + error.what());
+  } catch (...) {
+    status = Status::Error("registering its energies threw something that is no std::exception");
+  }
+  registry->SetOrigin("");
   return status.ok() ? status : Error(path, status.message());
 }
 

@@ -15,7 +15,7 @@ namespace ceres_ed {
 //
 // Errors name the file: it cannot be read, is no shared object, is no plugin, was built against
 // another ceres_ed, Ceres, Eigen or alignment (which one, there and here), or its register function
-// failed. Nothing of the plugin runs before the versions are known to agree, but static
+// failed or threw. Nothing of the plugin runs before the versions are known to agree, but static
 // initializers.
 Status LoadPlugin(const std::string& path, EnergyRegistry* registry);
 

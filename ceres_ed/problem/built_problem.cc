@@ -1,8 +1,10 @@
 // How ProblemBuilder makes a ceres::Problem.
 #include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/util/describe_throw.h>
 
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include <ceres/manifold.h>
@@ -27,6 +29,27 @@ void AddCamera(const ProblemConfig& config, DeformationState* state, BuiltProble
 double* MutableBlockPointer(DeformationState* state, const BlockRef& block) {
   return const_cast<double*>(BlockPointer(*state, block));
 }
+
+// A cost function of somebody else, in a solver whose threads no exception may leave.
+class GuardedCost final : public ceres::CostFunction {
+ public:
+  explicit GuardedCost(std::shared_ptr<const ceres::CostFunction> cost) : cost_(std::move(cost)) {
+    set_num_residuals(cost_->num_residuals());
+    *mutable_parameter_block_sizes() = cost_->parameter_block_sizes();
+  }
+
+  bool Evaluate(double const* const* parameters,
+                double* residuals,
+                double** jacobians) const override {
+    bool valid = false;
+    const std::string thrown =
+        DescribeThrow([&] { valid = cost_->Evaluate(parameters, residuals, jacobians); });
+    return valid && thrown.empty();
+  }
+
+ private:
+  std::shared_ptr<const ceres::CostFunction> cost_;
+};
 
 ceres::Problem::Options ProblemOptions() {
   ceres::Problem::Options options;
@@ -66,7 +89,7 @@ BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState
       blocks.push_back(MutableBlockPointer(state, block));
       if (block.kind == BlockRef::Kind::kNode) touched_nodes[block.node] = 1;
     }
-    built.costs.push_back(residual.CostFunction(graph_));
+    built.costs.push_back(std::make_shared<GuardedCost>(residual.CostFunction(graph_)));
     // Ceres evaluates a cost function it doesn't own only through const methods.
     built.problem->AddResidualBlock(const_cast<ceres::CostFunction*>(built.costs.back().get()),
                                     loss_for(residual.term, residual.weight),

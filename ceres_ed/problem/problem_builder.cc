@@ -1,5 +1,7 @@
 #include "ceres_ed/problem/problem_builder.h"
 
+#include <ceres_ed/util/describe_throw.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -18,6 +20,18 @@ int BlockSize(const BlockRef& block) {
       return kRotationSize;
     case BlockRef::Kind::kCameraTranslation:
       return kTranslationSize;
+  }
+  LOG(FATAL) << "unknown block kind";
+}
+
+std::string DescribeBlock(const BlockRef& block) {
+  switch (block.kind) {
+    case BlockRef::Kind::kNode:
+      return "node " + std::to_string(block.node);
+    case BlockRef::Kind::kCameraRotation:
+      return "the camera's rotation";
+    case BlockRef::Kind::kCameraTranslation:
+      return "the camera's translation";
   }
   LOG(FATAL) << "unknown block kind";
 }
@@ -45,7 +59,7 @@ bool IsIncluded(const BlockRef* blocks, int num_blocks, bool cut, const ProblemC
 
 }  // namespace
 
-// Checks each residual once, when it is collected.
+// Checks each residual once, when it is collected. After the first that doesn't fit it takes none.
 class ProblemBuilder::TermSink final : public ResidualSink {
  public:
   TermSink(Term* term, int num_nodes, bool has_camera)
@@ -55,11 +69,16 @@ class ProblemBuilder::TermSink final : public ResidualSink {
            const BlockRef* blocks,
            int num_blocks,
            double weight) override {
-    CHECK(cost != nullptr) << "energy '" << term_->label << "' added no cost function";
+    if (cost == nullptr) return Refuse("has no cost function");
     const std::vector<int>& sizes = cost->parameter_block_sizes();
-    CHECK_EQ(static_cast<int>(sizes.size()), num_blocks) << "energy '" << term_->label << "'";
+    if (static_cast<int>(sizes.size()) != num_blocks) {
+      return Refuse("has " + std::to_string(num_blocks) + " blocks, its cost function takes " +
+                    std::to_string(sizes.size()));
+    }
     for (int i = 0; i < num_blocks; ++i) {
-      CHECK_EQ(BlockSize(blocks[i]), sizes[i]) << "energy '" << term_->label << "': block size";
+      if (BlockSize(blocks[i]) == sizes[i]) continue;
+      return Refuse("has " + DescribeBlock(blocks[i]) + " as block " + std::to_string(i) +
+                    " where its cost function takes " + std::to_string(sizes[i]) + " numbers");
     }
     Append(nullptr, static_cast<int>(term_->costs.size()), blocks, num_blocks, weight);
     term_->costs.push_back(std::move(cost));
@@ -86,13 +105,19 @@ class ProblemBuilder::TermSink final : public ResidualSink {
               const BlockRef* blocks,
               int num_blocks,
               double weight) {
-    CHECK(std::isfinite(weight) && weight >= 0.0)
-        << "energy '" << term_->label << "': residual weight " << weight;
+    if (!(std::isfinite(weight) && weight >= 0.0)) {
+      return Refuse("has weight " + std::to_string(weight) + ", expected finite and >= 0");
+    }
     for (int i = 0; i < num_blocks; ++i) {
-      CheckBlock(blocks[i]);
+      if (!IsThere(blocks[i])) {
+        return Refuse("is on " + DescribeBlock(blocks[i]) + ", which isn't there (" +
+                      std::to_string(num_nodes_) + " nodes, " +
+                      (has_camera_ ? "a camera)" : "no camera)"));
+      }
       for (int k = 0; k < i; ++k) {
-        CHECK(blocks[k].kind != blocks[i].kind || blocks[k].node != blocks[i].node)
-            << "energy '" << term_->label << "': blocks " << k << " and " << i << " are the same";
+        if (blocks[k].kind == blocks[i].kind && blocks[k].node == blocks[i].node) {
+          return Refuse("has " + DescribeBlock(blocks[i]) + " twice");
+        }
       }
     }
     const int first_block = static_cast<int>(term_->blocks.size());
@@ -100,13 +125,15 @@ class ProblemBuilder::TermSink final : public ResidualSink {
     term_->residuals.push_back({store, index, weight, first_block, num_blocks});
   }
 
-  void CheckBlock(const BlockRef& block) const {
-    if (block.kind == BlockRef::Kind::kNode) {
-      CHECK(block.node >= 0 && block.node < num_nodes_)
-          << "energy '" << term_->label << "': node " << block.node << " of " << num_nodes_;
-    } else {
-      CHECK(has_camera_) << "energy '" << term_->label << "' uses a camera that isn't there";
-    }
+  bool IsThere(const BlockRef& block) const {
+    if (block.kind != BlockRef::Kind::kNode) return has_camera_;
+    return block.node >= 0 && block.node < num_nodes_;
+  }
+
+  void Refuse(const std::string& why) {
+    if (!term_->status.ok()) return;
+    term_->status = Status::Error(DescribeEnergy(term_->label, term_->origin) + ": residual " +
+                                  std::to_string(term_->residuals.size()) + " " + why);
   }
 
   Term* term_;
@@ -139,18 +166,39 @@ int ProblemBuilder::AddTerm(std::string label,
   return index;
 }
 
+void ProblemBuilder::SetOrigin(int term, std::string origin) {
+  terms_[term].origin = std::move(origin);
+}
+
 void ProblemBuilder::CollectResiduals(int term,
                                       const EnergyTerm& energy,
                                       const EnergyContext& context) {
   CHECK_EQ(context.graph, &graph_) << "the context is of another graph";
   CHECK_EQ(context.has_camera, has_camera_);
   Term& target = terms_[term];
-  target.residuals.clear();
-  target.blocks.clear();
-  target.costs.clear();
-  for (const Term::NamedStore& named : target.stores) named.store->Clear();
+  const auto clear = [&target] {
+    target.residuals.clear();
+    target.blocks.clear();
+    target.costs.clear();
+    for (const Term::NamedStore& named : target.stores) named.store->Clear();
+  };
+  clear();
+  target.status = Status::Ok();
   TermSink sink(&target, graph_.num_nodes(), has_camera_);
-  energy.AddResiduals(context, &sink);
+  const std::string reason = DescribeThrow([&] { energy.AddResiduals(context, &sink); });
+  if (!reason.empty() && target.status.ok()) {
+    target.status =
+        Status::Error(DescribeEnergy(target.label, target.origin) + ": after " +
+                      std::to_string(target.residuals.size()) + " residuals it " + reason);
+  }
+  if (!target.status.ok()) clear();
+}
+
+Status ProblemBuilder::status() const {
+  for (const Term& term : terms_) {
+    if (!term.status.ok()) return term.status;
+  }
+  return Status::Ok();
 }
 
 void ProblemBuilder::SetWeight(int term, double weight) {
@@ -249,20 +297,24 @@ TermEnergy ProblemBuilder::Evaluate(const Term& term, const DeformationState& st
   const std::unique_ptr<ceres::LossFunction> loss = MakeLoss(term.loss);
   std::vector<const double*> pointers;
   std::vector<double> residuals;
+  if (!term.status.ok()) energy.weighted = energy.raw = std::numeric_limits<double>::quiet_NaN();
   for (const Residual& residual : term.residuals) {
     const BlockRef* blocks = &term.blocks[residual.first_block];
     const SelectedResidual selected = term.Selected(residual);
     residuals.assign(selected.num_residuals(), 0.0);
     bool valid = false;
-    if (residual.store != nullptr) {
-      valid = residual.store->Evaluate(residual.index, blocks, graph_, state, residuals.data());
-    } else {
+    const std::string thrown = DescribeThrow([&] {
+      if (residual.store != nullptr) {
+        valid = residual.store->Evaluate(residual.index, blocks, graph_, state, residuals.data());
+        return;
+      }
       pointers.clear();
       for (int i = 0; i < residual.num_blocks; ++i) {
         pointers.push_back(BlockPointer(state, blocks[i]));
       }
       valid = selected.cost->Evaluate(pointers.data(), residuals.data(), nullptr);
-    }
+    });
+    valid = valid && thrown.empty();
     double squared_norm = valid ? 0.0 : std::numeric_limits<double>::quiet_NaN();
     for (const double r : residuals) squared_norm += r * r;
     double rho[3] = {squared_norm, 1.0, 0.0};

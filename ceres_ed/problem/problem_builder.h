@@ -6,6 +6,7 @@
 #include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/energy/residual_store.h>
 #include <ceres_ed/problem/problem_config.h>
+#include <ceres_ed/util/status.h>
 
 #include <memory>
 #include <string>
@@ -84,8 +85,22 @@ class ProblemBuilder {
   // weight >= 0.
   int AddTerm(std::string label, EnergyKind kind, double weight = 1.0, const LossSpec& loss = {});
 
-  // Collects (or, after new correspondences, collects anew) the residuals of a term.
+  // What messages about the term name beside its label (EnergyInfo::origin).
+  void SetOrigin(int term, std::string origin);
+
+  // Collects (or, after new correspondences, collects anew) the residuals of a term. An energy that
+  // throws or adds a residual that doesn't fit (block sizes, a node or camera that isn't there, a
+  // block twice, a weight that isn't finite and >= 0) leaves the term empty, and status() says why.
   void CollectResiduals(int term, const EnergyTerm& energy, const EnergyContext& context);
+
+  // The first thing that went wrong when residuals were collected, with the energy's name: nothing
+  // can be solved then.
+  Status status() const;
+
+  // The first residual that can't be used at `state`: it throws, it fails, it or a derivative of it
+  // isn't finite. The sentence names energy, plugin, residual and its nodes. What a solver says
+  // when it fails; as slow as ceres::Problem::Evaluate.
+  Status CheckResiduals(const DeformationState& state) const;
 
   // Takes effect in problems that are built from now on.
   void SetWeight(int term, double weight);
@@ -113,7 +128,7 @@ class ProblemBuilder {
   BuiltProblem Build(const ProblemConfig& config, DeformationState* state) const;
 
   // The costs of all residuals at `state`, whatever a config would leave out. A residual that can't
-  // be evaluated makes its term's costs NaN.
+  // be evaluated makes its term's costs NaN, and so does a term that could not be collected.
   EnergySummary Evaluate(const DeformationState& state) const;
 
  private:
@@ -128,6 +143,8 @@ class ProblemBuilder {
   };
   struct Term {
     std::string label;
+    std::string origin;
+    Status status = Status::Ok();
     EnergyKind kind = EnergyKind::kPrior;
     double weight = 1.0;
     LossSpec loss;
@@ -147,6 +164,7 @@ class ProblemBuilder {
 
   void CheckConfig(const ProblemConfig& config) const;
   TermEnergy Evaluate(const Term& term, const DeformationState& state) const;
+  Status CheckResidual(const Term& term, int index, const DeformationState& state) const;
 
   const DeformationGraph& graph_;
   const bool has_camera_;

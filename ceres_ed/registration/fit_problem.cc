@@ -51,6 +51,7 @@ Status FitProblem::AddTerm(const EnergyRegistry& registry,
   term.rule = rule;
   term.weight = spec.weight * rule.unit;
   term.index = builder_.AddTerm(label, term.energy->kind(), 0.0, spec.loss);
+  builder_.SetOrigin(term.index, registry.Find(spec.name)->origin);
   Collect(term, landmarks);
   ApplyWeight(term);
   terms_.push_back(std::move(term));

@@ -44,6 +44,7 @@ LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
   for (const Term& term : terms_) {
     if (term.observation || term.name == "pose_prior") continue;
     const int index = builder.AddTerm(term.name, term.energy->kind(), term.weight, term.loss);
+    builder.SetOrigin(index, term.origin);
     builder.CollectResiduals(index, *term.energy, context);
   }
   const ProblemConfig config = window.Config(/*camera_variable=*/false, SeamEdges::kKeep);

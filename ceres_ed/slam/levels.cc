@@ -56,6 +56,7 @@ StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
     if (!energy.ok()) return energy.status();
     Term term;
     term.name = spec.name;
+    term.origin = registry.Find(spec.name)->origin;
     term.energy = *std::move(energy);
     term.weight = spec.weight;
     term.loss = spec.loss;
@@ -151,6 +152,7 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
     if (term.name == "landmark") loss.width = observations.feature_width;
     const double weight = term.weight * (term.observation ? per_node : 1.0);
     const int index = builder.AddTerm(term.name, term.energy->kind(), weight, loss);
+    builder.SetOrigin(index, term.origin);
     builder.CollectResiduals(index, *term.energy, context);
   }
   const bool camera = options_.camera_variable;

@@ -175,6 +175,7 @@ class Levels {
   // A term and how it is weighed.
   struct Term {
     std::string name;
+    std::string origin;
     std::unique_ptr<EnergyTerm> energy;
     double weight = 1.0;
     LossSpec loss;

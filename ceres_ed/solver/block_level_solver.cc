@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <glog/logging.h>
 
@@ -48,13 +49,15 @@ class SavedUnknowns {
 // One Levenberg-Marquardt minimisation.
 class Minimizer {
  public:
-  Minimizer(const NormalEquations& equations,
+  Minimizer(const ProblemBuilder& builder,
+            const NormalEquations& equations,
             const BlockStructure& structure,
             const SolverOptions& options,
             BlockCholesky* cholesky,
             std::vector<double>* values,
             DeformationState* state)
-      : equations_(equations),
+      : builder_(builder),
+        equations_(equations),
         structure_(structure),
         options_(options),
         cholesky_(cholesky),
@@ -68,13 +71,14 @@ class Minimizer {
   enum class Step { kAccepted, kRejected, kInvalid, kConverged };
 
   bool EvaluateEquations();
-  Step TakeStep(bool last);
-  bool IsDone(int iteration, SolveSummary* summary) const;
+  Step TakeStep(bool last, bool explain);
+  bool IsDone(int valid_steps, SolveSummary* summary) const;
   void Shrink() {
     radius_ /= decrease_factor_;
     decrease_factor_ *= 2.0;
   }
 
+  const ProblemBuilder& builder_;
   const NormalEquations& equations_;
   const BlockStructure& structure_;
   const SolverOptions& options_;
@@ -88,6 +92,8 @@ class Minimizer {
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;
   SavedUnknowns before_;
+  // Of the last step that could not be evaluated and was to be explained.
+  std::string fault_;
 };
 
 bool Minimizer::EvaluateEquations() {
@@ -95,12 +101,14 @@ bool Minimizer::EvaluateEquations() {
     return false;
   }
   diagonal_ = structure_.Diagonal(values_);
-  return true;
+  // A derivative that isn't finite.
+  return gradient_.allFinite();
 }
 
 // Tests the step that minimises the damped quadratic model, and takes it if the cost follows. The
-// equations at the new state are worked out unless no step comes after it.
-Minimizer::Step Minimizer::TakeStep(bool last) {
+// equations at the new state are worked out unless no step comes after it. `explain` looks for what
+// makes the step invalid.
+Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   const int num_rows = structure_.num_primal_rows();
   const double floor = std::max(kMinRelativeDiagonal * diagonal_.head(num_rows).mean(), 1e-300);
   Eigen::VectorXd damping = Eigen::VectorXd::Zero(structure_.num_rows());
@@ -124,6 +132,7 @@ Minimizer::Step Minimizer::TakeStep(bool last) {
   const double decrease = cost_ - candidate_cost;
   const double quality = decrease / model_decrease;
   if (!valid || !(quality > kMinRelativeDecrease)) {
+    if (!valid && explain) fault_ = ExplainFailure(builder_, *state_, "");
     before_.Restore(equations_, state_);
     return valid ? Step::kRejected : Step::kInvalid;
   }
@@ -131,6 +140,7 @@ Minimizer::Step Minimizer::TakeStep(bool last) {
   cost_ = candidate_cost;
   if (!last && !converged && !EvaluateEquations()) {
     // The cost is finite there and a derivative is not: back to where both were.
+    if (explain) fault_ = ExplainFailure(builder_, *state_, "");
     before_.Restore(equations_, state_);
     EvaluateEquations();
     return Step::kInvalid;
@@ -142,7 +152,7 @@ Minimizer::Step Minimizer::TakeStep(bool last) {
 }
 
 // True, with status and message set, when no further iteration is wanted.
-bool Minimizer::IsDone(int iteration, SolveSummary* summary) const {
+bool Minimizer::IsDone(int valid_steps, SolveSummary* summary) const {
   const auto end = [summary](SolveStatus status, const char* message) {
     summary->status = status;
     summary->message = message;
@@ -151,7 +161,7 @@ bool Minimizer::IsDone(int iteration, SolveSummary* summary) const {
   if (gradient_.lpNorm<Eigen::Infinity>() <= options_.gradient_tolerance) {
     return end(SolveStatus::kConverged, "gradient tolerance reached");
   }
-  if (iteration >= options_.max_iterations) {
+  if (valid_steps >= options_.max_iterations) {
     return end(SolveStatus::kMaxIterations, "maximum number of iterations reached");
   }
   if (timer_.Seconds() >= options_.time_limit_s) {
@@ -169,28 +179,36 @@ bool Minimizer::IsDone(int iteration, SolveSummary* summary) const {
 void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
   summary->status = SolveStatus::kFailed;
   if (!EvaluateEquations()) {
-    summary->message = "a residual can't be evaluated at the start";
+    summary->message =
+        ExplainFailure(builder_, *state_, "a residual can't be evaluated at the start");
     return;
   }
   level->initial_cost = cost_;
   level->final_cost = cost_;
+  // Invalid steps don't count against the limit: a solve of one step would else end where it began,
+  // and nobody would know.
+  int valid_steps = 0;
   int invalid_steps = 0;
-  while (!IsDone(level->iterations, summary)) {
+  while (!IsDone(valid_steps, summary)) {
     ++level->iterations;
-    const Step step = TakeStep(level->iterations == options_.max_iterations);
+    const bool last = valid_steps + 1 == options_.max_iterations;
+    const Step step = TakeStep(last, invalid_steps + 1 == kMaxConsecutiveInvalidSteps);
     level->final_cost = cost_;
     if (step == Step::kConverged) {
       summary->status = SolveStatus::kConverged;
       summary->message = "function or parameter tolerance reached";
       return;
     }
+    if (step != Step::kInvalid) ++valid_steps;
     if (step == Step::kAccepted) {
       invalid_steps = 0;
       continue;
     }
     Shrink();
     if (step == Step::kInvalid && ++invalid_steps >= kMaxConsecutiveInvalidSteps) {
-      summary->message = "no valid step could be made";
+      summary->message = fault_.empty()
+                             ? ExplainFailure(builder_, *state_, "no valid step could be made")
+                             : "no valid step could be made: " + fault_;
       return;
     }
   }
@@ -223,6 +241,12 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
                              DeformationState* state,
                              SolveSummary* summary) {
   LevelSummary level;
+  if (const Status status = builder.status(); !status.ok()) {
+    summary->status = SolveStatus::kFailed;
+    summary->message = status.message();
+    summary->levels.push_back(level);
+    return false;
+  }
   Timer timer;
   equations_.Build(builder, config, DualPoints::kWhereFew);
   level.num_variable_nodes = equations_.num_variable_nodes();
@@ -236,7 +260,7 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
   level.build_time_s = timer.Restart();
   SavedUnknowns before;
   before.Save(equations_, *state);
-  Minimizer(equations_, *structure_, options, cholesky_.get(), &values_, state)
+  Minimizer(builder, equations_, *structure_, options, cholesky_.get(), &values_, state)
       .Run(&level, summary);
   level.solve_time_s = timer.Seconds();
   summary->levels.push_back(level);

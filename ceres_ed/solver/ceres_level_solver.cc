@@ -69,6 +69,12 @@ bool CeresLevelSolver::Solve(const ProblemBuilder& builder,
                              DeformationState* state,
                              SolveSummary* summary) {
   LevelSummary level;
+  if (const Status status = builder.status(); !status.ok()) {
+    summary->status = SolveStatus::kFailed;
+    summary->message = status.message();
+    summary->levels.push_back(level);
+    return false;
+  }
   Timer timer;
   const BuiltProblem built = builder.Build(config, state);
   level.build_time_s = timer.Seconds();
@@ -95,6 +101,7 @@ bool CeresLevelSolver::Solve(const ProblemBuilder& builder,
   summary->levels.push_back(level);
   summary->status = stop.stopped() ? SolveStatus::kInterrupted : StatusOf(ceres_summary, options);
   summary->message = ceres_summary.message;
+  if (!summary->IsUsable()) summary->message = ExplainFailure(builder, *state, summary->message);
   return summary->status != SolveStatus::kFailed;
 }
 

@@ -6,6 +6,7 @@
 #include <ceres_ed/solver/strategy.h>
 
 #include <memory>
+#include <string>
 
 namespace ceres_ed {
 
@@ -26,6 +27,11 @@ class LevelSolver {
 };
 
 std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver);
+
+// What ProblemBuilder::CheckResiduals has to say at `state`; `otherwise` where it finds no fault.
+std::string ExplainFailure(const ProblemBuilder& builder,
+                           const DeformationState& state,
+                           const std::string& otherwise);
 
 }  // namespace ceres_ed
 

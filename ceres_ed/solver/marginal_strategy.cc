@@ -3,9 +3,28 @@
 #include <ceres_ed/solver/marginal_solve.h>
 #include <ceres_ed/util/timer.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace ceres_ed {
+namespace {
+
+// What shares a residual with the camera stays beside it: a prior of an energy of the user's, on
+// points or nodes that nothing observes.
+void KeepNodesOfCamera(const ProblemBuilder& builder, ProblemConfig* level_one) {
+  if (!builder.has_camera()) return;
+  const ProblemConfig full = FullConfig(builder.graph().num_nodes(), /*has_camera=*/true);
+  for (const SelectedResidual& residual : builder.Select(full)) {
+    const BlockRef* end = residual.blocks + residual.num_blocks;
+    const auto is_camera = [](const BlockRef& b) { return b.kind != BlockRef::Kind::kNode; };
+    if (std::none_of(residual.blocks, end, is_camera)) continue;
+    for (const BlockRef* block = residual.blocks; block != end; ++block) {
+      if (!is_camera(*block)) level_one->variable_nodes[block->node] = 1;
+    }
+  }
+}
+
+}  // namespace
 
 MarginalStrategy::MarginalStrategy(const StrategyOptions& options)
     : options_(options), level_one_(MakeLevelSolver(options.linear_solver)) {}
@@ -38,8 +57,10 @@ SolveSummary MarginalStrategy::Solve(const ProblemBuilder& builder,
   problem.options = &options;
   problem.relinearize_above = options_.relinearize_above;
   problem.timer = &timer;
+  KeepNodesOfCamera(builder, &problem.level_one);
   const ProblemConfig eliminated = LevelTwoConfig(problem.level_one.variable_nodes);
-  const Status status = marginalization_.SetProblem(builder, eliminated);
+  Status status = builder.status();
+  if (status.ok()) status = marginalization_.SetProblem(builder, eliminated);
   if (!status.ok()) {
     summary.message = status.message();
     summary.initial_energy = summary.final_energy = builder.Evaluate(*state).Total();
@@ -54,6 +75,7 @@ SolveSummary MarginalStrategy::Solve(const ProblemBuilder& builder,
   DeformationState solution = *state;
   MarginalSolve solve(problem, level_one_.get(), &marginalization_, &solution);
   solve.Iterate(&summary);
+  if (!summary.IsUsable()) summary.message = ExplainFailure(builder, *state, summary.message);
   summary.levels = {solve.level_one(), solve.level_two()};
   summary.levels.back().build_time_s = build_time_s;
   summary.initial_energy =

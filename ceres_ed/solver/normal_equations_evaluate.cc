@@ -1,11 +1,13 @@
 // How NormalEquations goes through its residuals.
 #include <ceres_ed/solver/double_buffer.h>
 #include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/util/describe_throw.h>
 #include <ceres_ed/util/parallel.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <string>
 
 #include <glog/logging.h>
 
@@ -82,7 +84,11 @@ bool NormalEquations::EvaluateTasks(const DeformationState& state,
   std::atomic<bool> ok{true};
   ParallelFor(num_threads, num_tasks, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
-      if (!AddTask(tasks_[t], state, sums, &costs[t])) ok = false;
+      bool valid = false;
+      // Functors are somebody else's; ProblemBuilder::CheckResiduals finds out which one threw.
+      const std::string thrown =
+          DescribeThrow([&] { valid = AddTask(tasks_[t], state, sums, &costs[t]); });
+      if (!valid || !thrown.empty()) ok = false;
     }
   });
   if (!ok) return false;

@@ -164,6 +164,13 @@ std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver) {
   LOG(FATAL) << "unknown linear solver";
 }
 
+std::string ExplainFailure(const ProblemBuilder& builder,
+                           const DeformationState& state,
+                           const std::string& otherwise) {
+  const Status status = builder.CheckResiduals(state);
+  return status.ok() ? otherwise : status.message();
+}
+
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options) {
   switch (options.mode) {
     case SolveMode::kBatch:

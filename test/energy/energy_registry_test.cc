@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -89,9 +90,9 @@ TEST(ParameterValues, RefuseAnUnknownNameAndListTheKnownOnes) {
             "loss_width");
 }
 
-TEST(ParameterValuesDeathTest, DieOnAParameterThatTheEnergyHasNotDeclared) {
+TEST(ParameterValues, ThrowOnAParameterThatTheEnergyHasNotDeclared) {
   const StatusOr<ParameterValues> values = ParameterValues::Create(ExampleInfo(), {});
-  EXPECT_DEATH(values->Get("gian"), "undeclared parameter 'gian'");
+  EXPECT_THROW(values->Get("gian"), std::invalid_argument);
 }
 
 TEST(EnergyRegistry, RefusesAnUnknownEnergyAndListsTheKnownOnes) {
@@ -141,6 +142,40 @@ TEST(EnergyRegistry, RefusesAFactoryThatMakesNothing) {
       registry.Register(ExampleInfo(), [](const ParameterValues&) { return nullptr; }).ok());
   EXPECT_EQ(registry.Create("example", {}).status().message(),
             "energy 'example': its factory made nothing");
+}
+
+TEST(EnergyRegistry, RefusesAParameterThatTheFactoryDoesNotAskFor) {
+  EnergyRegistry registry;
+  const auto factory = [](const ParameterValues& values) {
+    values.Get("count");
+    return std::make_unique<EmptyEnergy>();
+  };
+  ASSERT_TRUE(registry.Register(ExampleInfo(), factory).ok());
+  EXPECT_TRUE(registry.Create("example", {{"count", 2.0}}).ok());
+  EXPECT_EQ(registry.Create("example", {{"gain", 1.0}}).status().message(),
+            "energy 'example': parameter 'gain' has no use; it uses: count");
+}
+
+TEST(EnergyRegistry, TurnsWhatAFactoryThrowsIntoAnErrorThatNamesThePlugin) {
+  EnergyRegistry registry;
+  registry.SetOrigin("plugin './x.so'");
+  const auto factory = [](const ParameterValues& values) {
+    values.Get("undeclared");
+    return std::make_unique<EmptyEnergy>();
+  };
+  ASSERT_TRUE(registry.Register(ExampleInfo(), factory).ok());
+  EXPECT_EQ(registry.Create("example", {}).status().message(),
+            "energy 'example' of plugin './x.so': asks for parameter 'undeclared', which it has "
+            "not declared");
+}
+
+TEST(EnergyRegistry, RefusesATermOfAnotherKindThanRegistered) {
+  EnergyRegistry registry;
+  EnergyInfo info = ExampleInfo();
+  info.kind = EnergyKind::kObservation;
+  ASSERT_TRUE(registry.Register(info, MakeEmpty).ok());
+  EXPECT_EQ(registry.Create("example", {}).status().message(),
+            "energy 'example': its term is not of the kind that it is registered as");
 }
 
 TEST(EnergyRegistry, HandsTheParametersToTheFactory) {

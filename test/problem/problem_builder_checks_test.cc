@@ -3,14 +3,18 @@
 
 #include <cmath>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <test/problem/strip_builder.h>
 
 namespace ceres_ed {
 namespace {
+
+using ::testing::HasSubstr;
 
 TestProblemOptions HalfSeen() {
   TestProblemOptions options;
@@ -54,21 +58,29 @@ TEST(ProblemBuilder, AResidualThatCannotBeEvaluatedMakesItsTermNotANumber) {
   EXPECT_FALSE(std::isnan(summary.terms[0].raw));
 }
 
-TEST(ProblemBuilderDeathTest, DiesOnResidualsThatDoNotFit) {
+TEST(ProblemBuilder, SaysWhichResidualDoesNotFit) {
   StripBuilder strip(HalfSeen());
   const int term = strip.builder.AddTerm("odd", EnergyKind::kPrior);
+  strip.builder.SetOrigin(term, "plugin './odd.so'");
   const auto collect = [&](const std::vector<BlockRef>& blocks, double weight) {
     strip.builder.CollectResiduals(term, BlocksEnergy(blocks, weight), strip.problem.Context());
+    EXPECT_EQ(strip.builder.NumResidualBlocks(term), 0);
+    return strip.builder.status().message();
   };
-  EXPECT_DEATH(collect({BlockRef::Node(18)}, 1.0), "energy 'odd': node 18 of 18");
-  EXPECT_DEATH(collect({BlockRef::Node(0), BlockRef::Node(1)}, 1.0), "energy 'odd'");
-  EXPECT_DEATH(collect({BlockRef::CameraRotation()}, 1.0), "block size");
-  EXPECT_DEATH(collect({BlockRef::Node(0)}, -1.0), "energy 'odd': residual weight -1");
-  EXPECT_DEATH(collect({BlockRef::Node(0)}, std::nan("")), "residual weight");
-  EXPECT_DEATH(strip.builder.SetWeight(term, -2.0), "energy 'odd': weight -2");
+  const std::string odd = "energy 'odd' of plugin './odd.so': residual 0 ";
+  EXPECT_EQ(collect({BlockRef::Node(18)}, 1.0),
+            odd + "is on node 18, which isn't there (18 nodes, no camera)");
+  EXPECT_EQ(collect({BlockRef::Node(0), BlockRef::Node(1)}, 1.0),
+            odd + "has 2 blocks, its cost function takes 1");
+  EXPECT_EQ(
+      collect({BlockRef::CameraRotation()}, 1.0),
+      odd + "has the camera's rotation as block 0 where its cost function takes 12 numbers");
+  EXPECT_EQ(collect({BlockRef::Node(0)}, -1.0),
+            odd + "has weight -1.000000, expected finite and >= 0");
+  EXPECT_THAT(collect({BlockRef::Node(0)}, std::nan("")), HasSubstr("has weight nan"));
 }
 
-TEST(ProblemBuilderDeathTest, DiesOnANodeThatAResidualTouchesTwice) {
+TEST(ProblemBuilder, SaysWhichNodeAResidualTouchesTwice) {
   StripBuilder strip(HalfSeen());
   const int nodes[] = {4, 4};
   const double weights[] = {0.5, 0.5};
@@ -76,8 +88,37 @@ TEST(ProblemBuilderDeathTest, DiesOnANodeThatAResidualTouchesTwice) {
   strip.problem.skinning.Add(nodes, weights, 2);
   strip.problem.correspondences.resize(1);
   const auto energy = strip.registry.Create("point_to_point", {});
-  EXPECT_DEATH(strip.builder.CollectResiduals(strip.data, **energy, strip.problem.Context()),
-               "blocks 0 and 1 are the same");
+  strip.builder.CollectResiduals(strip.data, **energy, strip.problem.Context());
+  EXPECT_THAT(strip.builder.status().message(), HasSubstr("residual 0 has node 4 twice"));
+}
+
+TEST(ProblemBuilder, ATermThatCouldNotBeCollectedIsForgottenWithItsNextResiduals) {
+  StripBuilder strip(HalfSeen());
+  const int term = strip.builder.AddTerm("odd", EnergyKind::kPrior);
+  strip.builder.CollectResiduals(
+      term, BlocksEnergy({BlockRef::Node(18)}, 1.0), strip.problem.Context());
+  EXPECT_FALSE(strip.builder.status().ok());
+  EXPECT_TRUE(std::isnan(strip.builder.Evaluate(DeformationState(18)).Total()));
+  strip.builder.CollectResiduals(
+      term, BlocksEnergy({BlockRef::Node(17)}, 1.0), strip.problem.Context());
+  EXPECT_TRUE(strip.builder.status().ok());
+}
+
+TEST(ProblemBuilder, NamesTheResidualThatCannotBeEvaluated) {
+  StripBuilder strip(HalfSeen());
+  const int term = strip.builder.AddTerm("failing", EnergyKind::kPrior);
+  strip.builder.CollectResiduals(
+      term, BlocksEnergy({BlockRef::Node(7)}, 1.0), strip.problem.Context());
+  EXPECT_EQ(strip.builder.CheckResiduals(DeformationState(18)).message(),
+            "energy 'failing': residual 0 (node 7) says that it can't be evaluated");
+  strip.builder.SetWeight(term, 0.0);
+  EXPECT_TRUE(strip.builder.CheckResiduals(DeformationState(18)).ok());
+}
+
+TEST(ProblemBuilderDeathTest, DiesOnAWeightThatIsNegative) {
+  StripBuilder strip(HalfSeen());
+  const int term = strip.builder.AddTerm("odd", EnergyKind::kPrior);
+  EXPECT_DEATH(strip.builder.SetWeight(term, -2.0), "energy 'odd': weight -2");
 }
 
 TEST(ProblemBuilderDeathTest, DiesOnACameraThatIsNotThere) {

@@ -2,14 +2,12 @@
 // point. A sheet is held at one edge and pulled down in the middle; the free half goes on down,
 // unless there is a floor.
 #include <ceres_ed/energy/builtin_energies.h>
-#include <ceres_ed/energy/point_energy.h>
+#include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/registration/fit.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
-#include <utility>
 
 using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a program, not a header
 
@@ -28,39 +26,19 @@ struct FloorFunctor {
   double height;
 };
 
-// Where its residuals are: on every point. A prior, for it observes nothing.
-class FloorEnergy : public EnergyTerm {
- public:
-  explicit FloorEnergy(double height) : height_(height) {}
-
-  EnergyKind kind() const override { return EnergyKind::kPrior; }
-
-  void AddResiduals(const EnergyContext& context, ResidualSink* sink) const override {
-    for (int i = 0; i < static_cast<int>(context.points->size()); ++i) {
-      AddPointResidual(context, i, FloorFunctor{height_}, 1.0, sink);
-    }
-  }
-
- private:
-  double height_;
-};
-
-// What users are told about it. The same function makes a plugin: CERES_ED_PLUGIN(RegisterFloor).
+// What users are told about it, and where its residuals are: on every point. A prior, for it
+// observes nothing. The same function makes a plugin: CERES_ED_PLUGIN(RegisterFloor).
 Status RegisterFloor(EnergyRegistry* registry) {
   EnergyInfo info;
   info.name = "floor";
   info.summary = "no point sinks below a height";
   info.equation = "max(0, height - v~_z)";
   info.unit = "length";
-  EnergyParameter height;
-  height.name = "height";
-  height.unit = "source diagonals above the source's centre";
-  height.minimum = -10.0;
-  height.maximum = 10.0;
-  height.doc = "where the floor is";
-  info.parameters = {height};
-  return registry->Register(std::move(info), [](const ParameterValues& values) {
-    return std::make_unique<FloorEnergy>(values.Get("height"));
+  info.parameters = {RealParameter(
+      "height", "source diagonals above the source's centre", -10, 10, 0, "where the floor is")};
+  return registry->Register(info, [](const ParameterValues& values) {
+    const FloorFunctor floor{values.Get("height")};
+    return ForEachPoint(EnergyKind::kPrior, [floor](const EnergyContext&, int) { return floor; });
   });
 }
 
