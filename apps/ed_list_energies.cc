@@ -1,61 +1,33 @@
 // ed_list_energies: every energy with its parameters, units, ranges and defaults.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_listing.h>
 #include <ceres_ed/energy/energy_registry.h>
-#include <ceres_ed/plugin/plugin_loader.h>
 
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include <apps/support/energies.h>
 #include <apps/support/program.h>
 #include <gflags/gflags.h>
 
-DEFINE_string(plugin, "", "shared object whose energies are listed too");
+DEFINE_string(plugin, "", "shared object whose energies are listed too; several with ; between");
+DEFINE_string(format, "text", "text or markdown");
 
 namespace ceres_ed {
 namespace {
 
-const char* TypeName(ParameterType type) {
-  switch (type) {
-    case ParameterType::kReal:
-      return "number";
-    case ParameterType::kInteger:
-      return "integer";
-    case ParameterType::kFlag:
-      return "flag";
-  }
-  return "";
-}
-
-void Print(const EnergyInfo& energy) {
-  std::printf("%s (%s)\n  %s\n  residual: %s, unit: %s\n",
-              energy.name.c_str(),
-              energy.kind == EnergyKind::kObservation ? "observation" : "prior",
-              energy.summary.c_str(),
-              energy.equation.c_str(),
-              energy.unit.c_str());
-  for (const EnergyParameter& parameter : energy.parameters) {
-    std::printf("  %s: %s, unit: %s, range: %g to %g, default: %g; %s\n",
-                parameter.name.c_str(),
-                TypeName(parameter.type),
-                parameter.unit.c_str(),
-                parameter.minimum,
-                parameter.maximum,
-                parameter.default_value,
-                parameter.doc.c_str());
-  }
-  std::printf("\n");
-}
-
 Outcome Run(const std::vector<std::string>&) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
-  if (!FLAGS_plugin.empty()) {
-    if (Status status = LoadPlugin(FLAGS_plugin, &registry); !status.ok()) {
-      return Outcome::BadInput(status);
-    }
+  if (FLAGS_format != "text" && FLAGS_format != "markdown") {
+    return Outcome::Usage("--format=" + FLAGS_format + ", expected text or markdown");
   }
-  for (const EnergyInfo* energy : registry.List()) Print(*energy);
+  EnergyRegistry registry;
+  const Outcome outcome = LoadEnergies(FLAGS_plugin, {}, &registry);
+  if (outcome.code != ExitCode::kDone) return outcome;
+  if (FLAGS_format == "markdown") {
+    std::fputs(ListEnergiesAsMarkdown(registry).c_str(), stdout);
+    return Outcome::Done();
+  }
+  std::fputs(ListEnergies(registry).c_str(), stdout);
   std::printf(
       "Every energy takes weight (>= 0, default 1), loss (squared, huber, cauchy, tukey, welsch,\n"
       "geman_mcclure; default squared) and loss_width (> 0, unit of the residual) too:\n"

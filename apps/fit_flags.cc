@@ -95,7 +95,7 @@ DEFINE_double(max_angle_deg,
 DEFINE_int32(max_samples, Defaults().max_samples, "points of each surface that are matched");
 DEFINE_bool(finish, Defaults().finish, "move every point onto TARGET in the end");
 DEFINE_string(energy, "", "more energies, NAME[:param=value,...];... (see ed_list_energies)");
-DEFINE_string(plugin, "", "shared object with more energies");
+DEFINE_string(plugin, "", "shared object with more energies; several with ; between them");
 DEFINE_int32(threads, Defaults().num_threads, "changes the time, not the result");
 DEFINE_double(time_limit_s,
               ceres_ed::kNoLimit,
@@ -202,14 +202,6 @@ StatusOr<FitSettings> ReadFitFlags() {
   std::string error;
   if (!settings.options.IsValid(&error)) return Status::Error(error);
   return settings;
-}
-
-Status CheckEnergies(const FitSettings& settings, const EnergyRegistry& registry) {
-  for (const EnergySpec& spec : settings.options.extra_energies) {
-    const auto energy = registry.Create(spec.name, spec.parameters);
-    if (!energy.ok()) return Status::Error("--energy: " + energy.status().message());
-  }
-  return Status::Ok();
 }
 
 std::string SolveModeName(SolveMode mode) { return NameOf(kModes, mode); }

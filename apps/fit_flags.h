@@ -2,7 +2,6 @@
 #ifndef CERES_ED_APPS_FIT_FLAGS_H_
 #define CERES_ED_APPS_FIT_FLAGS_H_
 
-#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/status.h>
 
@@ -26,9 +25,6 @@ struct FitSettings {
 // Returns the flags as they are now, checked. Error: names the flag, its value and what was
 // expected.
 StatusOr<FitSettings> ReadFitFlags();
-
-// Error: an energy of --energy that `registry` doesn't know, or a parameter that it doesn't take.
-Status CheckEnergies(const FitSettings& settings, const EnergyRegistry& registry);
 
 // "batch" or "two_level".
 std::string SolveModeName(SolveMode mode);

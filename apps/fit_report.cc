@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <vector>
 
+#include <apps/support/energies.h>
 #include <apps/support/report.h>
 
 namespace ceres_ed {
@@ -115,12 +116,29 @@ std::string Line(const char* format, Arguments... arguments) {
   return std::string(text) + "\n";
 }
 
+// Energies of --energy that the end of the fit has no residuals of.
+std::vector<std::string> IdleEnergies(const FitRun& run) {
+  std::vector<std::string> names;
+  if (!run.result->IsUsable()) return names;
+  for (const EnergySpec& spec : run.settings->options.extra_energies) {
+    for (const TermEnergy& term : run.result->final_energy.terms) {
+      if (term.label == spec.name && term.residuals == 0) names.push_back(spec.name);
+    }
+  }
+  return names;
+}
+
 }  // namespace
 
 std::vector<std::string> FitWarnings(const FitRun& run) {
   std::vector<std::string> warnings = run.files->warnings;
   warnings.insert(warnings.end(), run.result->warnings.begin(), run.result->warnings.end());
   const FitOptions& options = run.settings->options;
+  const auto add = [&warnings](const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  add(IdlePluginWarnings(*run.registry, options.extra_energies));
+  add(IdleEnergyWarnings(*run.registry, IdleEnergies(run)));
   BackendUse use;
   use.ceres = options.strategy.linear_solver == LinearSolver::kCeres;
   for (const std::string& warning : BackendWarnings(DescribeBackend(), use)) {

@@ -19,6 +19,7 @@ struct FitRun {
   // Its warnings are those of the inputs, the result's are those of the fit.
   const FitFiles* files = nullptr;
   const FitResult* result = nullptr;
+  const EnergyRegistry* registry = nullptr;
   // Seconds; `total_s` is from the start of the program until now.
   double load_s = 0.0;
   double write_s = 0.0;
@@ -27,7 +28,8 @@ struct FitRun {
   std::vector<std::string> warnings;
 };
 
-// Returns all warnings: of the inputs, of the fit, and of libraries that made it slow.
+// Returns all warnings: of the inputs, of the fit, of energies and plugins that do nothing, and of
+// libraries that made it slow.
 std::vector<std::string> FitWarnings(const FitRun& run);
 
 // Returns the contents of report.json; lengths are in the target's unit, but for the diagonals.

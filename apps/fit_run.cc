@@ -1,7 +1,5 @@
 #include "apps/fit_run.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
-#include <ceres_ed/plugin/plugin_loader.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/timer.h>
 
@@ -12,6 +10,7 @@
 #include <apps/fit_files.h>
 #include <apps/fit_flags.h>
 #include <apps/fit_report.h>
+#include <apps/support/energies.h>
 #include <apps/support/progress_bar.h>
 #include <apps/support/report.h>
 
@@ -72,14 +71,10 @@ Outcome RunFit(const std::vector<std::string>& arguments) {
     return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
   }
   EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
-  if (!settings->plugin.empty()) {
-    Status status = LoadPlugin(settings->plugin, &registry);
-    if (!status.ok()) return Outcome::BadInput(status);
-  }
-  Status status = CheckEnergies(*settings, registry);
-  if (!status.ok()) return Outcome::Usage(status.message());
-  status = CheckOutputs(*settings);
+  const Outcome energies =
+      LoadEnergies(settings->plugin, settings->options.extra_energies, &registry);
+  if (energies.code != ExitCode::kDone) return energies;
+  const Status status = CheckOutputs(*settings);
   if (!status.ok()) return Outcome::BadInput(status);
 
   const StatusOr<FitFiles> files = LoadFitFiles(arguments, *settings);
@@ -90,7 +85,7 @@ Outcome RunFit(const std::vector<std::string>& arguments) {
     const std::string inputs = arguments[0] + (arguments.size() > 1 ? ", " + arguments[1] : "");
     return Outcome::BadInput(Status::Error(inputs + ": " + result.status().message()));
   }
-  return Conclude({&*settings, &*files, &*result, load_s}, clock);
+  return Conclude({&*settings, &*files, &*result, &registry, load_s}, clock);
 }
 
 }  // namespace ceres_ed

@@ -89,7 +89,7 @@ DEFINE_int32(max_observations,
              Defaults().options.max_observations,
              "points of the map that are held against a frame");
 DEFINE_string(energy, "", "more energies, NAME[:param=value,...];... (see ed_list_energies)");
-DEFINE_string(plugin, "", "shared object with more energies");
+DEFINE_string(plugin, "", "shared object with more energies; several with ; between them");
 DEFINE_int32(threads, Defaults().options.num_threads, "changes the time, not the result");
 DEFINE_double(time_limit_s, ceres_ed::kNoLimit, "seconds until it stops, exit code 4; 0 = none");
 DEFINE_string(progress,
@@ -193,14 +193,6 @@ StatusOr<SlamSettings> ReadSlamFlags() {
   std::string error;
   if (!settings.sequence.IsValid(&error)) return Status::Error(error);
   return settings;
-}
-
-Status CheckEnergies(const SlamSettings& settings, const EnergyRegistry& registry) {
-  for (const EnergySpec& spec : settings.options.levels.energies) {
-    const auto energy = registry.Create(spec.name, spec.parameters);
-    if (!energy.ok()) return Status::Error("--energy: " + energy.status().message());
-  }
-  return Status::Ok();
 }
 
 namespace {

@@ -2,7 +2,6 @@
 #ifndef CERES_ED_APPS_SLAM_FLAGS_H_
 #define CERES_ED_APPS_SLAM_FLAGS_H_
 
-#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/slam/slam.h>
 #include <ceres_ed/util/status.h>
@@ -34,9 +33,6 @@ struct SlamSettings {
 // Returns the flags as they are now, checked. Error: names the flag, its value and what was
 // expected.
 StatusOr<SlamSettings> ReadSlamFlags();
-
-// Error: an energy of --energy that `registry` doesn't know, or a parameter that it doesn't take.
-Status CheckEnergies(const SlamSettings& settings, const EnergyRegistry& registry);
 
 // Return a line `--name=value` for each flag that a run is resumed with as it was, and for each
 // that says how the levels are solved: these may change on the way, the map is the same in kind.

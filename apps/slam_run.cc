@@ -1,8 +1,6 @@
 #include "apps/slam_run.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/io/cloud_io.h>
-#include <ceres_ed/plugin/plugin_loader.h>
 #include <ceres_ed/util/timer.h>
 
 #include <cstdio>
@@ -13,20 +11,10 @@
 
 #include <apps/slam_flags.h>
 #include <apps/slam_session.h>
+#include <apps/support/energies.h>
 
 namespace ceres_ed {
 namespace {
-
-// Energies of the library and of the plugin, as far as --energy needs them.
-Outcome LoadEnergies(const SlamSettings& settings, EnergyRegistry* registry) {
-  RegisterBuiltinEnergies(registry);
-  if (!settings.plugin.empty()) {
-    Status status = LoadPlugin(settings.plugin, registry);
-    if (!status.ok()) return Outcome::BadInput(status);
-  }
-  const Status status = CheckEnergies(settings, *registry);
-  return status.ok() ? Outcome::Done() : Outcome::Usage(status.message());
-}
 
 bool HasPoses(const DepthSequence& sequence) {
   for (int i = 0; i < sequence.num_frames(); ++i) {
@@ -56,7 +44,8 @@ Outcome RunSlam(const std::vector<std::string>& arguments) {
   const StatusOr<SlamSettings> settings = ReadSlamFlags();
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
   EnergyRegistry registry;
-  Outcome outcome = LoadEnergies(*settings, &registry);
+  const std::vector<EnergySpec>& energies = settings->options.levels.energies;
+  Outcome outcome = LoadEnergies(settings->plugin, energies, &registry);
   if (outcome.code != ExitCode::kDone) return outcome;
 
   const StatusOr<std::unique_ptr<DepthSequence>> sequence =
@@ -66,6 +55,9 @@ Outcome RunSlam(const std::vector<std::string>& arguments) {
     std::fprintf(stderr, "ed_slam: %s\n", (*sequence)->description().c_str());
   }
   WarningLog warnings("ed_slam");
+  for (const std::string& warning : IdlePluginWarnings(registry, energies)) {
+    warnings.Add("plugin", warning);
+  }
   for (const std::string& warning : (*sequence)->warnings()) warnings.Add("sequence", warning);
   if (settings->options.camera == CameraMode::kGiven && !HasPoses(**sequence)) {
     return Outcome::BadInput(
@@ -78,7 +70,7 @@ Outcome RunSlam(const std::vector<std::string>& arguments) {
   if (!slam.ok()) {
     return Outcome::BadInput(Status::Error(arguments[0] + ": " + slam.status().message()));
   }
-  SlamSession session(*settings, arguments[0], **sequence, slam->get(), clock);
+  SlamSession session(*settings, arguments[0], **sequence, registry, slam->get(), clock);
   outcome = session.Start(*std::move(points), &warnings);
   return outcome.code == ExitCode::kDone ? session.Run() : outcome;
 }

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include <apps/support/energies.h>
 #include <apps/support/progress_bar.h>
 #include <apps/support/report.h>
 
@@ -141,7 +142,9 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   input.catch_up = live || !points_.empty() || tracked_.size() > 0;
   Timer timer;
   const double load_s = (*record)["t_load"];
-  *record = MakeFrameRecord(slam_->Process(input), *slam_);
+  const FrameReport report = slam_->Process(input);
+  if (!report.fault.empty()) return Outcome::NoResult(Status::Error(name + ": " + report.fault));
+  *record = MakeFrameRecord(report, *slam_);
   (*record)["t_load"] = load_s;
   (*record)["t_total"] = timer.Restart();
   if (record->status == FrameStatus::kSkipped) {
@@ -175,6 +178,11 @@ Outcome SlamSession::Finish(Outcome outcome) {
                       " frames could be used, expected depth in one at least"));
   }
   slam_->CatchUp();
+  if (tracked) {
+    for (const std::string& warning : IdleEnergyWarnings(registry_, slam_->IdleEnergies())) {
+      warnings_->Add("energy", warning);
+    }
+  }
   SlamRun run = MakeRun();
   run.message = outcome.message;
   run.status = "failed";

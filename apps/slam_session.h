@@ -2,6 +2,7 @@
 #ifndef CERES_ED_APPS_SLAM_SESSION_H_
 #define CERES_ED_APPS_SLAM_SESSION_H_
 
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/slam/checkpoint.h>
 #include <ceres_ed/slam/slam.h>
@@ -29,11 +30,13 @@ class SlamSession {
   SlamSession(const SlamSettings& settings,
               const std::string& sequence_path,
               const DepthSequence& sequence,
+              const EnergyRegistry& registry,
               DeformableSlam* slam,
               const Timer& clock)
       : settings_(settings),
         sequence_path_(sequence_path),
         sequence_(sequence),
+        registry_(registry),
         reader_(sequence, settings.options.num_threads),
         slam_(slam),
         clock_(clock) {}
@@ -66,6 +69,7 @@ class SlamSession {
   const SlamSettings& settings_;
   const std::string& sequence_path_;
   const DepthSequence& sequence_;
+  const EnergyRegistry& registry_;
   FrameReader reader_;
   DeformableSlam* slam_;
   const Timer& clock_;

@@ -65,13 +65,20 @@ StatusOr<EnergySpec> ParseOne(const std::string& text) {
     return Status::Error("energy '" + text + "': expected NAME[:param=value,...]");
   }
   if (colon == std::string::npos) return spec;
+  bool has_width = false;
   for (const std::string& piece : Split(text.substr(colon + 1), ',')) {
     const std::size_t equals = piece.find('=');
     if (equals == std::string::npos || equals == 0) {
       return Status::Error("energy '" + spec.name + "': '" + piece + "', expected param=value");
     }
-    Status status = SetParameter(piece.substr(0, equals), piece.substr(equals + 1), &spec);
+    const std::string key = piece.substr(0, equals);
+    has_width = has_width || key == "loss_width";
+    Status status = SetParameter(key, piece.substr(equals + 1), &spec);
     if (!status.ok()) return status;
+  }
+  if (has_width && spec.loss.type == LossType::kSquared) {
+    return Status::Error("energy '" + spec.name +
+                         "': loss_width has no use without a loss, expected loss=huber or another");
   }
   return spec;
 }

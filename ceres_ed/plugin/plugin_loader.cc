@@ -93,4 +93,13 @@ Status LoadPlugin(const std::string& path, EnergyRegistry* registry) {
   return RegisterFrom(library, path, registry);
 }
 
+Status LoadPlugins(const std::string& paths, EnergyRegistry* registry) {
+  std::istringstream stream(paths);
+  for (std::string path; std::getline(stream, path, ';');) {
+    if (path.empty()) continue;
+    if (Status status = LoadPlugin(path, registry); !status.ok()) return status;
+  }
+  return Status::Ok();
+}
+
 }  // namespace ceres_ed

@@ -19,6 +19,10 @@ namespace ceres_ed {
 // initializers.
 Status LoadPlugin(const std::string& path, EnergyRegistry* registry);
 
+// The same for several, with ";" between their paths; none where `paths` is empty. Error: of the
+// first that can't be loaded.
+Status LoadPlugins(const std::string& paths, EnergyRegistry* registry);
+
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_PLUGIN_PLUGIN_LOADER_H_

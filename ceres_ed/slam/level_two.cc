@@ -41,11 +41,9 @@ LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
   const WindowObservations nothing({}, windows_, *map, window);
   const EnergyContext context = nothing.Context(window);
   ProblemBuilder builder(window.graph, /*has_camera=*/false);
-  for (const Term& term : terms_) {
+  for (Term& term : terms_) {
     if (term.observation || term.name == "pose_prior") continue;
-    const int index = builder.AddTerm(term.name, term.energy->kind(), term.weight, term.loss);
-    builder.SetOrigin(index, term.origin);
-    builder.CollectResiduals(index, *term.energy, context);
+    Collect(term.weight, term.loss, context, &term, &builder);
   }
   const ProblemConfig config = window.Config(/*camera_variable=*/false, SeamEdges::kKeep);
   const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {

@@ -50,6 +50,7 @@ StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
        {},
        {{"rotation_sigma", options.prior_rotation_deg},
         {"translation_sigma", options.prior_translation}}}};
+  const std::size_t num_own = specs.size();
   specs.insert(specs.end(), options.energies.begin(), options.energies.end());
   for (const EnergySpec& spec : specs) {
     StatusOr<std::unique_ptr<EnergyTerm>> energy = registry.Create(spec.name, spec.parameters);
@@ -61,6 +62,7 @@ StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
     term.weight = spec.weight;
     term.loss = spec.loss;
     term.observation = term.energy->kind() == EnergyKind::kObservation;
+    term.is_users = levels->terms_.size() >= num_own;
     levels->terms_.push_back(std::move(term));
   }
   levels->level_one_ = MakeLevelSolver(options.linear_solver);
@@ -146,14 +148,12 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   context.has_camera = true;
   context.camera_prior = observations.camera_prior;
   ProblemBuilder builder(window.graph, /*has_camera=*/true);
-  for (const Term& term : terms_) {
+  for (Term& term : terms_) {
     LossSpec loss = term.loss;
     if (term.name == "point_to_plane") loss.width = observations.plane_width;
     if (term.name == "landmark") loss.width = observations.feature_width;
     const double weight = term.weight * (term.observation ? per_node : 1.0);
-    const int index = builder.AddTerm(term.name, term.energy->kind(), weight, loss);
-    builder.SetOrigin(index, term.origin);
-    builder.CollectResiduals(index, *term.energy, context);
+    Collect(weight, loss, context, &term, &builder);
   }
   const bool camera = options_.camera_variable;
   const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
@@ -173,6 +173,25 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   return report;
 }
 
+void Levels::Collect(double weight,
+                     const LossSpec& loss,
+                     const EnergyContext& context,
+                     Term* term,
+                     ProblemBuilder* builder) {
+  const int index = builder->AddTerm(term->name, term->energy->kind(), weight, loss);
+  builder->SetOrigin(index, term->origin);
+  builder->CollectResiduals(index, *term->energy, context);
+  term->has_added = term->has_added || builder->NumResidualBlocks(index) > 0;
+}
+
+std::vector<std::string> Levels::IdleEnergies() const {
+  std::vector<std::string> names;
+  for (const Term& term : terms_) {
+    if (term.is_users && !term.has_added) names.push_back(term.name);
+  }
+  return names;
+}
+
 LevelReport Levels::Solve(const SolverOptions& options,
                           const SolveWindow& solve,
                           const LevelWindow& window,
@@ -190,7 +209,10 @@ LevelReport Levels::Solve(const SolverOptions& options,
     solved = solve(more, &summary);
   }
   report.status = summary.status;
-  if (!solved) return report;
+  if (!solved) {
+    fault_ = summary.fault;
+    return report;
+  }
   report.variable_nodes = window.num_variable;
   report.iterations = summary.TotalIterations();
   report.initial_energy = summary.levels.back().initial_cost;

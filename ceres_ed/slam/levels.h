@@ -153,6 +153,11 @@ class Levels {
   // The nodes that the last Level I moved, and its PR nodes, by number.
   const NodeSet& moved_nodes() const { return moved_; }
   const NodeSet& point_relevant() const { return point_relevant_; }
+  // What made the last level that failed fail, where it was a residual: energy, plugin and
+  // residual.
+  const std::string& fault() const { return fault_; }
+  // Energies of LevelsOptions::energies that have not added a residual yet.
+  std::vector<std::string> IdleEnergies() const;
   // For what changes outside of the levels.
   PendingNodes& pending() { return pending_; }
   // Null where nothing is marginalised.
@@ -180,6 +185,9 @@ class Levels {
     double weight = 1.0;
     LossSpec loss;
     bool observation = false;
+    // One of LevelsOptions::energies.
+    bool is_users = false;
+    bool has_added = false;
   };
 
   explicit Levels(const LevelsOptions& options)
@@ -212,8 +220,16 @@ class Levels {
                     DeformableMap* map,
                     std::vector<double>* motion);
 
+  // Adds a term and its residuals to a problem of a level.
+  void Collect(double weight,
+               const LossSpec& loss,
+               const EnergyContext& context,
+               Term* term,
+               ProblemBuilder* builder);
+
   LevelsOptions options_;
   std::vector<Term> terms_;
+  std::string fault_;
   LevelWindowBuilder windows_;
   std::unique_ptr<LevelSolver> level_one_;
   std::unique_ptr<LevelSolver> level_two_;

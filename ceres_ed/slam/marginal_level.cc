@@ -77,11 +77,11 @@ bool MarginalLevel::Solve(const ProblemBuilder& builder,
   problem.options = &options;
   problem.relinearize_above = StrategyOptions().relinearize_above;
   problem.timer = &timer;
-  const Status status = marginalization_.SetProblem(builder, eliminated);
-  if (!status.ok()) {
-    summary->status = SolveStatus::kFailed;
-    summary->message = status.message();
-    return false;
+  // A prior of the user's that joins a hidden node to the camera: all of them at once, then, which
+  // has the same minimum.
+  if (!marginalization_.SetProblem(builder, eliminated).ok()) {
+    const ProblemConfig all = window->Config(camera_variable, SeamEdges::kKeep);
+    return level_one_->Solve(builder, all, options, &window->state, summary);
   }
   DeformationState solution = window->state;
   MarginalSolve solve(problem, level_one_.get(), &marginalization_, &solution);

@@ -128,6 +128,9 @@ struct FrameReport {
   // Of Level I, no unit.
   double energy = 0.0;
   int iterations = 0;
+  // The residual of an energy of the user's that could not be used, in a sentence that names it;
+  // empty where there was none. What it was part of has not moved.
+  std::string fault;
   // Of frames that were verified.
   BatchComparison batch;
 };
@@ -155,6 +158,9 @@ class DeformableSlam {
   bool HasData(int node) const {
     return levels_->point_relevant().Has(node) || node >= nodes_before_growth_;
   }
+
+  // Energies of LevelsOptions::energies that have not added a residual yet.
+  std::vector<std::string> IdleEnergies() const { return levels_->IdleEnergies(); }
 
   // Lets all nodes that were left behind follow, so that the map is what it would be had they moved
   // along, to the tolerance of LazyOptions. Ahead of a look at the whole map.

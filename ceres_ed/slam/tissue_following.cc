@@ -141,6 +141,7 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
   memory_.BeginFrame(levels_->point_relevant(), &map_);
   const FrameObservations observations = FollowSeen(surface, report);
   FollowHidden(catch_up, report);
+  report->fault = levels_->fault();
   if (batch_ != nullptr && report->number % options_.verify_every == 0) {
     Verify(observations, report);
   }

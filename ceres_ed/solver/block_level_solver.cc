@@ -132,7 +132,7 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   const double decrease = cost_ - candidate_cost;
   const double quality = decrease / model_decrease;
   if (!valid || !(quality > kMinRelativeDecrease)) {
-    if (!valid && explain) fault_ = ExplainFailure(builder_, *state_, "");
+    if (!valid && explain) fault_ = builder_.CheckResiduals(*state_).message();
     before_.Restore(equations_, state_);
     return valid ? Step::kRejected : Step::kInvalid;
   }
@@ -140,7 +140,7 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   cost_ = candidate_cost;
   if (!last && !converged && !EvaluateEquations()) {
     // The cost is finite there and a derivative is not: back to where both were.
-    if (explain) fault_ = ExplainFailure(builder_, *state_, "");
+    if (explain) fault_ = builder_.CheckResiduals(*state_).message();
     before_.Restore(equations_, state_);
     EvaluateEquations();
     return Step::kInvalid;
@@ -179,8 +179,7 @@ bool Minimizer::IsDone(int valid_steps, SolveSummary* summary) const {
 void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
   summary->status = SolveStatus::kFailed;
   if (!EvaluateEquations()) {
-    summary->message =
-        ExplainFailure(builder_, *state_, "a residual can't be evaluated at the start");
+    ExplainFailure(builder_, *state_, "a residual can't be evaluated at the start", summary);
     return;
   }
   level->initial_cost = cost_;
@@ -206,9 +205,11 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
     }
     Shrink();
     if (step == Step::kInvalid && ++invalid_steps >= kMaxConsecutiveInvalidSteps) {
-      summary->message = fault_.empty()
-                             ? ExplainFailure(builder_, *state_, "no valid step could be made")
-                             : "no valid step could be made: " + fault_;
+      ExplainFailure(builder_, *state_, "no valid step could be made", summary);
+      if (summary->fault.empty() && !fault_.empty()) {
+        summary->fault = fault_;
+        summary->message += ": " + fault_;
+      }
       return;
     }
   }
@@ -241,9 +242,8 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
                              DeformationState* state,
                              SolveSummary* summary) {
   LevelSummary level;
-  if (const Status status = builder.status(); !status.ok()) {
-    summary->status = SolveStatus::kFailed;
-    summary->message = status.message();
+  if (!builder.status().ok()) {
+    ExplainFailure(builder, *state, "", summary);
     summary->levels.push_back(level);
     return false;
   }

@@ -69,9 +69,8 @@ bool CeresLevelSolver::Solve(const ProblemBuilder& builder,
                              DeformationState* state,
                              SolveSummary* summary) {
   LevelSummary level;
-  if (const Status status = builder.status(); !status.ok()) {
-    summary->status = SolveStatus::kFailed;
-    summary->message = status.message();
+  if (!builder.status().ok()) {
+    ExplainFailure(builder, *state, "", summary);
     summary->levels.push_back(level);
     return false;
   }
@@ -101,7 +100,7 @@ bool CeresLevelSolver::Solve(const ProblemBuilder& builder,
   summary->levels.push_back(level);
   summary->status = stop.stopped() ? SolveStatus::kInterrupted : StatusOf(ceres_summary, options);
   summary->message = ceres_summary.message;
-  if (!summary->IsUsable()) summary->message = ExplainFailure(builder, *state, summary->message);
+  if (!summary->IsUsable()) ExplainFailure(builder, *state, ceres_summary.message, summary);
   return summary->status != SolveStatus::kFailed;
 }
 

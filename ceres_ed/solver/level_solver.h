@@ -28,10 +28,12 @@ class LevelSolver {
 
 std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver);
 
-// What ProblemBuilder::CheckResiduals has to say at `state`; `otherwise` where it finds no fault.
-std::string ExplainFailure(const ProblemBuilder& builder,
-                           const DeformationState& state,
-                           const std::string& otherwise);
+// Sets the status to failed, and says why: by the residual that is at fault at `state`, or by
+// `otherwise` where none is.
+void ExplainFailure(const ProblemBuilder& builder,
+                    const DeformationState& state,
+                    const std::string& otherwise,
+                    SolveSummary* summary);
 
 }  // namespace ceres_ed
 

@@ -131,6 +131,7 @@ bool MarginalSolve::SolveLevelOne(DeformationState* candidate, SolveSummary* sum
       level_one_solver_->Solve(*problem_.builder, config_, options, candidate, &step);
   summary->status = step.status;
   summary->message = step.message;
+  summary->fault = step.fault;
   if (step.levels.empty()) return false;
   TakeOver(step.levels.back());
   if (!solved) return false;

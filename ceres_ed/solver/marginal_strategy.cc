@@ -75,7 +75,9 @@ SolveSummary MarginalStrategy::Solve(const ProblemBuilder& builder,
   DeformationState solution = *state;
   MarginalSolve solve(problem, level_one_.get(), &marginalization_, &solution);
   solve.Iterate(&summary);
-  if (!summary.IsUsable()) summary.message = ExplainFailure(builder, *state, summary.message);
+  if (!summary.IsUsable() && summary.fault.empty()) {
+    ExplainFailure(builder, *state, summary.message, &summary);
+  }
   summary.levels = {solve.level_one(), solve.level_two()};
   summary.levels.back().build_time_s = build_time_s;
   summary.initial_energy =

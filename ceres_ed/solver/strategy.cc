@@ -164,11 +164,13 @@ std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver) {
   LOG(FATAL) << "unknown linear solver";
 }
 
-std::string ExplainFailure(const ProblemBuilder& builder,
-                           const DeformationState& state,
-                           const std::string& otherwise) {
-  const Status status = builder.CheckResiduals(state);
-  return status.ok() ? otherwise : status.message();
+void ExplainFailure(const ProblemBuilder& builder,
+                    const DeformationState& state,
+                    const std::string& otherwise,
+                    SolveSummary* summary) {
+  summary->status = SolveStatus::kFailed;
+  summary->fault = builder.CheckResiduals(state).message();
+  summary->message = summary->fault.empty() ? otherwise : summary->fault;
 }
 
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options) {

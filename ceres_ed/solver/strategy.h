@@ -66,6 +66,8 @@ struct LevelSummary {
 struct SolveSummary {
   SolveStatus status = SolveStatus::kFailed;
   std::string message = "not solved";
+  // The residual that made it fail (ProblemBuilder::CheckResiduals); empty where it was none.
+  std::string fault;
   // Of the full problem (all residuals), before and after.
   double initial_energy = 0.0;
   double final_energy = 0.0;

@@ -164,8 +164,8 @@ TEST_F(EdFitBadInputTest, PluginsThatCannotBeLoadedAreNamed) {
 }
 
 TEST_F(EdFitBadInputTest, AFailedSolveWritesOnlyItsReport) {
-  const ProgramResult result = FitPair({std::string("--plugin=") + CERES_ED_FAILING_PLUGIN,
-                                        "--energy=failing",
+  const ProgramResult result = FitPair({std::string("--plugin=") + CERES_ED_FAULTY_PLUGIN,
+                                        "--energy=fails",
                                         "--warp=" + (dir_ / "warp.json"),
                                         "--graph=" + (dir_ / "graph.ply"),
                                         "--report=" + (dir_ / "report.json")});

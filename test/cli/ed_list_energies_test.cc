@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::IsSupersetOf;
 using ::testing::StartsWith;
 
 TEST(EdListEnergies, NamesEveryBuiltinEnergyAndItsParameters) {
@@ -38,6 +39,17 @@ TEST(EdListEnergies, RefusesAPluginThatIsNotThere) {
   EXPECT_EQ(result.err,
             "ed_list_energies: plugin '/nowhere/plugin.so': cannot be read: No such file or "
             "directory\n");
+}
+
+TEST(EdListEnergies, WritesMarkdownToo) {
+  const ProgramResult result = RunProgramFile(AppPath("ed_list_energies"), {"--format=markdown"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(SplitLines(result.out),
+              IsSupersetOf({"### `rotation`",
+                            "Prior: each node's affine matrix stays near a rotation.",
+                            "| `rotation_sigma` | number | degree | 1e-09 to 360 | 1 | spread of "
+                            "rotation |"}));
+  EXPECT_EQ(RunProgramFile(AppPath("ed_list_energies"), {"--format=xml"}).exit_code, 1);
 }
 
 }  // namespace

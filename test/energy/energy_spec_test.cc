@@ -114,5 +114,12 @@ TEST(MakeLossDeathTest, DiesOnAWidthThatIsNotPositive) {
   EXPECT_DEATH(MakeLoss({LossType::kHuber, 0.0}), "loss width 0");
 }
 
+TEST(EnergySpec, RefusesAWidthWithoutALoss) {
+  EXPECT_EQ(ParseEnergySpecs("rotation:loss_width=0.5").status().message(),
+            "energy 'rotation': loss_width has no use without a loss, expected loss=huber or "
+            "another");
+  EXPECT_TRUE(ParseEnergySpecs("rotation:loss_width=0.5,loss=huber").ok());
+}
+
 }  // namespace
 }  // namespace ceres_ed

@@ -112,6 +112,19 @@ TEST(PluginLoader, PassesOnTheErrorOfTheRegisterFunction) {
               AllOf(HasSubstr("failing_plugin.so"), HasSubstr("needs a licence file")));
 }
 
+TEST(PluginLoader, PassesOnWhatTheRegisterFunctionThrows) {
+  EXPECT_THAT(LoadError(PluginPath("throwing_plugin")),
+              AllOf(HasSubstr("throwing_plugin.so"), HasSubstr("threw: cannot find its table")));
+}
+
+TEST(PluginLoader, NotesWhereAnEnergyComesFrom) {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  ASSERT_TRUE(LoadPlugins(PluginPath("good_plugin") + ";", &registry).ok());
+  EXPECT_EQ(registry.Find("anchor")->origin, "plugin '" + PluginPath("good_plugin") + "'");
+  EXPECT_EQ(registry.Find("rotation")->origin, "");
+}
+
 TEST(PluginLoader, FindsABareNameInTheWorkingDirectory) {
   // A bare name reaches the file, so the complaint is about its contents.
   std::ofstream("bare_name.so") << "plain text, longer than the header of a shared object\n";
