@@ -78,10 +78,10 @@ TEST(Relocalization, TracksOnAfterAJump) {
   const auto slam = MappedKidney();
   // The picture is turned half way round: no prediction leads there.
   const SlamFrame frame = KidneySequence().Frame(3);
-  DepthImage turned(frame.depth->width(), frame.depth->height());
+  DepthImage turned(frame.depth.width(), frame.depth.height());
   for (int v = 0; v < turned.height(); ++v) {
     for (int u = 0; u < turned.width(); ++u) {
-      turned(u, v) = (*frame.depth)(turned.width() - 1 - u, turned.height() - 1 - v);
+      turned(u, v) = frame.depth(turned.width() - 1 - u, turned.height() - 1 - v);
     }
   }
   SlamFrame jumped = frame;
