@@ -25,7 +25,8 @@ py::array ArrayOf(const py::handle& object,
                   const char* kinds,
                   const char* expected) {
   py::array array = py::array::ensure(object);
-  if (!array) {
+  // Of what it can't look into, numpy makes one object.
+  if (!array || (array.ndim() == 0 && array.dtype().kind() == 'O')) {
     throw py::value_error(what + " is " + std::string(py::str(py::type::of(object))) +
                           ", expected an array of " + expected);
   }

@@ -75,7 +75,7 @@ def test_normals_are_brought_to_unit_length():
     ([[np.inf, 0, 0]], "row 0, expected finite numbers"),
     (np.zeros((4, 3), dtype=complex), "complex128, expected real numbers"),
     ([["a", "b", "c"]], "expected real numbers"),
-    (object(), "expected real numbers"),
+    (object(), "is <class 'object'>, expected an array of real numbers"),
 ], ids=["columns", "flat", "cube", "nan", "inf", "complex", "text", "object"])
 def test_bad_points_are_value_errors(points, message):
     with pytest.raises(ValueError, match=message):

@@ -69,7 +69,8 @@ def test_the_number_of_threads_changes_nothing(plane, fitted):
 
 
 def test_results_are_views_that_outlive_the_result(plane):
-    result = ceres_ed.fit(*plane, finish=False, levels=1, max_rounds=1)
+    source = ceres_ed.Cloud(plane[0], normals=np.tile([0.0, 0.0, 1.0], (len(plane[0]), 1)))
+    result = ceres_ed.fit(source, plane[1], finish=False, levels=1, max_rounds=1)
     points, normals, triangles, warp = result.points, result.normals, result.triangles, result.warp
     assert np.shares_memory(points, result.points)
     assert np.shares_memory(normals, result.normals)
