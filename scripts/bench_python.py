@@ -2,10 +2,11 @@
 """What a fit costs from Python, against ed_fit: both in processes of their own, in turn.
 
   fit    from arrays in memory to arrays: ceres_ed.fit(), and of ed_fit all but reading and writing
+  CPU    the processor's seconds of the same, which other programs disturb less
   again  the second fit of a Python process
   whole  from the start of the process to its end: interpreter, numpy, reading and writing included
 
-Medians of --runs on one thread, and their ratios to ed_fit; of fit the ratio of each pair of runs, too.
+Medians of --runs on one thread, and their ratios to ed_fit. Both must write the same bytes.
 """
 import argparse
 import json
@@ -26,15 +27,15 @@ source, target = ceres_ed.load(sys.argv[1]), ceres_ed.load(sys.argv[2])
 points, triangles = source.points, source.triangles
 where, faces = target.points, target.triangles
 for _ in range(int(sys.argv[4])):
-    start = time.perf_counter()
+    start, cpu = time.perf_counter(), time.process_time()
     result = ceres_ed.fit((points, triangles), (where, faces))
-    print(time.perf_counter() - start)
+    print(time.perf_counter() - start, time.process_time() - cpu)
 ceres_ed.save(sys.argv[3], result, like=source)
 """
 
 
 def python_fit(options, folder, work, fits):
-    """Returns the seconds of each fit of a process, and of all of it."""
+    """Returns [(seconds, CPU seconds)] of the fits of a process, and its seconds."""
     start = time.monotonic()
     done = subprocess.run(
         [options.python, "-c", CHILD, folder / "source.ply", folder / "target.ply",
@@ -43,17 +44,20 @@ def python_fit(options, folder, work, fits):
         text=True)
     if done.returncode != 0:
         raise RunFailed(f"{options.python}: {done.stderr.strip().splitlines()[-1]}")
-    return [float(line) for line in done.stdout.split()], time.monotonic() - start
+    whole = time.monotonic() - start
+    return [tuple(map(float, line.split())) for line in done.stdout.splitlines()], whole
 
 
 def program_fit(options, folder, work):
-    """Returns the seconds of ed_fit's fit, and of all of it."""
+    """Returns the seconds and CPU seconds of ed_fit's fit, and the seconds of all of it."""
     report = work / "fit.json"
-    wall, _, _ = run([options.bin / "apps/ed_fit", folder / "source.ply", folder / "target.ply",
+    wall, cpu, _ = run([options.bin / "apps/ed_fit", folder / "source.ply", folder / "target.ply",
                       f"--output={work / 'program.ply'}", f"--report={report}", "--quiet"],
                      work / "fit.log")
     times = json.loads(report.read_text())["time_s"]
-    return times["total"] - times["load"] - times["write"], wall
+    # Reading and writing take little and wait for nobody.
+    files = times["load"] + times["write"]
+    return times["total"] - files, cpu - files, wall
 
 
 def folder_of(pair):
@@ -66,24 +70,19 @@ def folder_of(pair):
 def measure(options, pair, work):
     """Returns a row of the table."""
     folder = folder_of(pair)
-    seconds = {key: [] for key in ("program", "python", "again", "program whole", "python whole")}
+    runs = []
     for _ in range(options.runs):
-        fit, whole = program_fit(options, folder, work)
-        seconds["program"].append(fit)
-        seconds["program whole"].append(whole)
-        (fit,), whole = python_fit(options, folder, work, 1)
-        seconds["python"].append(fit)
-        seconds["python whole"].append(whole)
-        (_, again), _ = python_fit(options, folder, work, 2)
-        seconds["again"].append(again)
+        fit, cpu, whole = program_fit(options, folder, work)
+        [(python, python_cpu)], python_whole = python_fit(options, folder, work, 1)
+        [_, (again, _)], _ = python_fit(options, folder, work, 2)
+        runs.append((fit, python, cpu, python_cpu, whole, python_whole, again))
     if (work / "program.ply").read_bytes() != (work / "python.ply").read_bytes():
         raise RunFailed(f"{pair}: the two have different results")
-    median = {key: statistics.median(values) for key, values in seconds.items()}
-    each = statistics.median(b / a for a, b in zip(seconds["program"], seconds["python"]))
-    return (f"| {pair} | {median['program']:.3f} | {median['python']:.3f} | "
-            f"{median['python'] / median['program']:.3f} | {each:.3f} | "
-            f"{median['again'] / median['program']:.3f} | {median['program whole']:.3f} | "
-            f"{median['python whole']:.3f} | {median['python whole'] / median['program whole']:.3f} |")
+    medians = [statistics.median(column) for column in zip(*runs)]
+    cells = [pair]
+    for program, python in (medians[0:2], medians[2:4], medians[4:6]):
+        cells += [f"{program:.3f}", f"{python:.3f}", f"{python / program:.3f}"]
+    return "| " + " | ".join(cells + [f"{medians[6] / medians[0]:.3f}"]) + " |"
 
 
 def parse_options():
@@ -103,8 +102,9 @@ def parse_options():
 
 def main():
     options = parse_options()
-    print("| pair | ed_fit s | fit() s | ratio | run by run | again | ed_fit whole s | "
-          "Python whole s | ratio |\n|---|--:|--:|--:|--:|--:|--:|--:|--:|")
+    print("| pair | ed_fit s | fit() s | ratio | ed_fit CPU s | fit() CPU s | ratio | "
+          "ed_fit whole s | Python whole s | ratio | again, ratio |")
+    print("|---" + 10 * "|--:" + "|")
     with tempfile.TemporaryDirectory(prefix="bench_python_") as work:
         for pair in options.pairs.split(","):
             try:
