@@ -17,7 +17,7 @@ std::unique_ptr<DeformableSlam> MappedKidney() {
 }
 
 ObservedSurface SurfaceOf(const DeformableSlam& slam, int frame) {
-  return ObservedSurface(*KidneySequence().Frame(frame).depth,
+  return ObservedSurface(KidneySequence().Frame(frame).depth,
                          KidneySequence().camera,
                          1.0 / slam.unit(),
                          ObservedSurfaceOptions());
