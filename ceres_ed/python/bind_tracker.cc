@@ -129,7 +129,7 @@ void BindTrackerClass(py::module_& module) {
   py::class_<Tracker>(
       module, "Tracker", R"(Follows camera and tissue through depth frames, and maps them.
 
-Lengths in metres. The map's frame is that of the first camera. One thread at a time.)")
+Lengths in metres. The map's frame is that of the first camera. One thread at a time: a call while another is at work is a RuntimeError.)")
       .def(py::init<const PinholeCamera&,
                     const SlamOptions*,
                     const py::object&,
@@ -203,7 +203,7 @@ What was left behind out of view follows first.)")
           "The Graph at rest, map frame, metres; a copy.")
       .def_property_readonly(
           "point_relevant", &Tracker::PointRelevant, "(nodes,) bool: data in the last frame.")
-      .def("__len__", &Tracker::num_points, "Points of the map.");
+      .def("__len__", &Tracker::NumPoints, "Points of the map.");
 }
 
 }  // namespace

@@ -99,6 +99,7 @@ FrameReport Tracker::Track(const py::object& depth_object,
   } else if (camera_is_given_) {
     throw py::value_error("pose is None, expected (4, 4): camera='given' takes the frames' poses");
   }
+  const Turn turn(&busy_);
   next_number_ = frame.number + 1;
   const py::gil_scoped_release release;
   return slam_->Process(frame);
@@ -113,6 +114,7 @@ MapSnapshot Tracker::Snapshot(const std::string& frame) {
   if (frame != "map" && frame != "camera") {
     throw py::value_error("frame is '" + frame + "', expected 'map' or 'camera'");
   }
+  const Turn turn(&busy_);
   CatchUp();
   const py::gil_scoped_release release;
   const DeformableMap& map = slam_->map();
@@ -135,6 +137,7 @@ MapSnapshot Tracker::Snapshot(const std::string& frame) {
 }
 
 Warp Tracker::MakeWarp() {
+  const Turn turn(&busy_);
   CatchUp();
   const DeformableMap& map = slam_->map();
   Warp warp;
@@ -153,6 +156,7 @@ Warp Tracker::MakeWarp() {
 }
 
 std::optional<Similarity> Tracker::CameraPose() const {
+  const Turn turn(&busy_);
   if (slam_->unit() == 0.0) return std::nullopt;
   const ceres_ed::CameraPose& camera_from_map = slam_->camera_from_map();
   Similarity pose;
@@ -161,7 +165,13 @@ std::optional<Similarity> Tracker::CameraPose() const {
   return pose;
 }
 
+int Tracker::NumPoints() const {
+  const Turn turn(&busy_);
+  return slam_->map().num_points();
+}
+
 py::array Tracker::PointRelevant() const {
+  const Turn turn(&busy_);
   py::array_t<bool> flags(slam_->map().graph().num_nodes());
   for (int j = 0; j < flags.size(); ++j) flags.mutable_at(j) = slam_->HasData(j);
   return ReadOnly(std::move(flags));

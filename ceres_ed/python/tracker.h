@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -53,9 +54,25 @@ class Tracker {
   // Of the camera in the map, metres; nothing before the first frame.
   std::optional<Similarity> CameraPose() const;
   py::array PointRelevant() const;
-  int num_points() const { return slam_->map().num_points(); }
+  int NumPoints() const;
 
  private:
+  // RuntimeError where another thread is at work here, which has let go of the interpreter's lock;
+  // waiting for it with the lock held would have it wait for us.
+  class Turn {
+   public:
+    explicit Turn(bool* busy) : busy_(busy) {
+      if (*busy) throw std::runtime_error("the tracker is at work in another thread");
+      *busy = true;
+    }
+    ~Turn() { *busy_ = false; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    bool* busy_;
+  };
+
   void CheckSize(const py::array& image, const char* what) const;
   py::array_t<float, py::array::c_style> Metres(const py::object& depth,
                                                 std::optional<double> units_per_metre) const;
@@ -66,6 +83,8 @@ class Tracker {
   EnergyRegistry registry_;
   std::unique_ptr<DeformableSlam> slam_;
   int next_number_ = 0;
+  // Read and written with the interpreter's lock.
+  mutable bool busy_ = false;
 };
 
 }  // namespace ceres_ed::python

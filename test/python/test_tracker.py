@@ -181,6 +181,23 @@ def test_other_threads_run_during_a_frame(camera):
     assert sum(start < t < end for t in beats) > 0.1 * (end - start) / 0.0005
 
 
+def test_two_threads_at_once_are_an_error(camera):
+    tracker = ceres_ed.Tracker(camera)
+    tracker.track(render())
+    frames = [render(0.0005 * (k % 3)) for k in range(6)]
+    thread = threading.Thread(target=lambda: [tracker.track(frame) for frame in frames])
+    refused = 0
+    thread.start()
+    while thread.is_alive():
+        try:
+            tracker.camera_pose
+        except RuntimeError as error:
+            assert "another thread" in str(error)
+            refused += 1
+    assert refused > 0
+    assert tracker.track(render()).number == 7
+
+
 @pytest.mark.parametrize("arguments, message", [
     ({"depth": np.zeros((HEIGHT, WIDTH + 1), np.float32)}, r"\(120, 161\), expected the camera's"),
     ({"depth": np.zeros((HEIGHT, WIDTH, 1), np.float32)}, r"expected \(height, width\)"),
