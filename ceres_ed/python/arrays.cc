@@ -2,6 +2,7 @@
 
 #include <ceres_ed/io/cloud_io.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -66,7 +67,7 @@ std::vector<Eigen::Vector3d> ToPoints(const py::handle& object, const std::strin
   CheckRows(array, what, "N");
   std::vector<Eigen::Vector3d> points(static_cast<std::size_t>(array.shape(0)));
   if (points.empty()) return points;
-  std::memcpy(points.data(), array.data(), points.size() * sizeof(Eigen::Vector3d));
+  std::copy_n(array.data(), 3 * points.size(), points.front().data());
   for (std::size_t i = 0; i < points.size(); ++i) {
     // False of what is not a number, too.
     if ((points[i].array().abs() <= kMaxCoordinate).all()) continue;
@@ -90,7 +91,7 @@ std::vector<Eigen::Vector3d> ToNormals(const py::handle& object,
                           " points");
   }
   if (normals.empty()) return normals;
-  std::memcpy(normals.data(), array.data(), normals.size() * sizeof(Eigen::Vector3d));
+  std::copy_n(array.data(), 3 * normals.size(), normals.front().data());
   for (Eigen::Vector3d& normal : normals) {
     const double length = normal.norm();
     const bool has_direction = std::isfinite(length) && length > 0.0;

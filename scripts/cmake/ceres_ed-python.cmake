@@ -25,11 +25,7 @@ else()
   set(CERES_ED_PYTHON_MISSING "Python's headers (Debian's python3-dev)")
 endif()
 
-# Where Python looks below a prefix such as ~/.local or a virtual environment; below /usr/local Debian
-# has it look elsewhere.
-set(ceres_ed_site site-packages)
-if(CMAKE_INSTALL_PREFIX STREQUAL /usr/local AND Python3_SITEARCH MATCHES "dist-packages$")
-  set(ceres_ed_site dist-packages)
-endif()
-set(CERES_ED_PYTHON_DIR lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/${ceres_ed_site}
+# Where Python looks below ~/.local or a virtual environment. Below /usr/local Debian has it look in
+# dist-packages instead.
+set(CERES_ED_PYTHON_DIR lib/python${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}/site-packages
     CACHE STRING "Where the Python package is installed, below the prefix")
