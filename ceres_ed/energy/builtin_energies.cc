@@ -10,9 +10,13 @@ void RegisterBuiltinEnergies(EnergyRegistry* registry) {
                                              RegisterRegularization,
                                              RegisterNodePrior,
                                              RegisterPosePrior,
+                                             RegisterLaplacian,
+                                             RegisterVolume,
+                                             RegisterTemporalSmoothness,
                                              RegisterPointToPlane,
                                              RegisterPointToPoint,
-                                             RegisterLandmark};
+                                             RegisterLandmark,
+                                             RegisterPinnedVertex};
   for (RegisterFunction* const register_energy : kEnergies) {
     const Status status = register_energy(registry);
     CHECK(status.ok()) << status.message();

@@ -11,6 +11,7 @@
 #include <ceres_ed/graph/skinning.h>
 #include <ceres_ed/util/status.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <utility>
@@ -149,6 +150,10 @@ struct EnergyContext {
   CameraPose camera_prior;
   // t_j where each node is thought to be before the solve, one a node; null where nothing is known.
   const std::vector<Eigen::Vector3d>* node_prior = nullptr;
+  // t_j of each node one frame ago; null where there was none, as in a fit.
+  const std::vector<Eigen::Vector3d>* node_previous = nullptr;
+  // Faces over `points`, counter-clockwise seen from outside; null where there are none.
+  const std::vector<std::array<int, 3>>* triangles = nullptr;
 };
 
 // Residuals in arrays (residual_store.h).

@@ -65,7 +65,7 @@ Status CoarseToFine::RunLevel(
   const std::vector<Eigen::Vector3d>& points = fit_.source->cloud().points;
   *state = from < 0 ? DeformationState(graph.graph.num_nodes())
                     : CarryOver(graphs_[from], *state, graph.node_points, points);
-  FitProblem problem(graph, points);
+  FitProblem problem(graph, fit_.source->cloud());
   Status status = problem.AddEnergies(*fit_.options, *fit_.registry, fit_.landmarks, fit_.fixed);
   if (!status.ok()) return status;
   RunNonrigidLoop(fit_, graph, plan, &problem, state, result);

@@ -13,14 +13,15 @@ constexpr int kThinning = 4;
 
 }  // namespace
 
-FitProblem::FitProblem(const BuiltGraph& graph, const std::vector<Eigen::Vector3d>& points)
-    : graph_(graph), points_(points), builder_(graph.graph, /*has_camera=*/false) {}
+FitProblem::FitProblem(const BuiltGraph& graph, const PointCloud& source)
+    : graph_(graph), source_(source), builder_(graph.graph, /*has_camera=*/false) {}
 
 EnergyContext FitProblem::Context(const Term& term,
                                   const std::vector<Correspondence>& landmarks) const {
   EnergyContext context;
   context.graph = &graph_.graph;
-  context.points = &points_;
+  context.points = &source_.points;
+  if (source_.HasTriangles()) context.triangles = &source_.triangles;
   context.skinning = &graph_.skinning;
   context.correspondences = term.rule.thinned ? &thinned_ : &correspondences_;
   context.landmarks = &landmarks;

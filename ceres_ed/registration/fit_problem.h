@@ -12,11 +12,11 @@
 
 namespace ceres_ed {
 
-// Energies of a fit over one graph, in a frame where the source's diagonal is 1. The graph, points
-// and skinning that are passed in must outlive it.
+// Energies of a fit over one graph, in a frame where the source's diagonal is 1. The graph and the
+// source that are passed in must outlive it.
 class FitProblem {
  public:
-  FitProblem(const BuiltGraph& graph, const std::vector<Eigen::Vector3d>& points);
+  FitProblem(const BuiltGraph& graph, const PointCloud& source);
 
   // Adds all energies that `options` ask for. `landmarks` and `fixed` are in the unit frame. Error:
   // an unknown energy or parameter.
@@ -66,7 +66,7 @@ class FitProblem {
   void ApplyWeight(const Term& term);
 
   const BuiltGraph& graph_;
-  const std::vector<Eigen::Vector3d>& points_;
+  const PointCloud& source_;
   ProblemBuilder builder_;
   std::vector<Term> terms_;
   std::vector<Correspondence> correspondences_;

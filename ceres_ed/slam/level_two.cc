@@ -39,7 +39,9 @@ LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
   LevelWindow window = windows_.Build(map->graph(), map->state(), nodes, /*held=*/{});
   if (priors != nullptr) priors->UpdatePriors(window.nodes, map);
   const WindowObservations nothing({}, windows_, *map, window);
-  const EnergyContext context = nothing.Context(window);
+  EnergyContext context = nothing.Context(window);
+  const std::vector<Eigen::Vector3d> previous = PreviousOf(window, *map);
+  if (!previous.empty()) context.node_previous = &previous;
   ProblemBuilder builder(window.graph, /*has_camera=*/false);
   for (Term& term : terms_) {
     if (term.observation || term.name == "pose_prior") continue;

@@ -145,6 +145,8 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   const double per_node =
       point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
   EnergyContext context = seen.Context(window);
+  const std::vector<Eigen::Vector3d> previous = PreviousOf(window, *map);
+  if (!previous.empty()) context.node_previous = &previous;
   context.has_camera = true;
   context.camera_prior = observations.camera_prior;
   ProblemBuilder builder(window.graph, /*has_camera=*/true);
@@ -171,6 +173,20 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   if (camera) map->SetCamera(window.state.camera_from_map);
   pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/marginal_ != nullptr);
   return report;
+}
+
+std::vector<Eigen::Vector3d> Levels::PreviousOf(const LevelWindow& window,
+                                                const DeformableMap& map) {
+  std::vector<Eigen::Vector3d> previous;
+  if (options_.energies.empty()) return previous;
+  previous.reserve(window.nodes.size());
+  for (const int node : window.nodes) {
+    // The first window of the frame that has it sees it as it was.
+    const auto [place, is_new] =
+        previous_.try_emplace(node, NodeTranslation(map.state().node(node)));
+    previous.push_back(place->second);
+  }
+  return previous;
 }
 
 void Levels::Collect(double weight,

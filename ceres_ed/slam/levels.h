@@ -18,6 +18,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -127,6 +128,9 @@ class Levels {
   static StatusOr<std::unique_ptr<Levels>> Create(const LevelsOptions& options,
                                                   const EnergyRegistry& registry);
 
+  // What nodes do from here on they do in a new frame.
+  void BeginFrame() { previous_.clear(); }
+
   // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved.
   // `priors` may be null: then nodes keep the prior that they have.
   LevelReport SolveLevelOne(const FrameObservations& observations,
@@ -227,8 +231,14 @@ class Levels {
                Term* term,
                ProblemBuilder* builder);
 
+  // Where the nodes of a window were one frame ago.
+  std::vector<Eigen::Vector3d> PreviousOf(const LevelWindow& window, const DeformableMap& map);
+
   LevelsOptions options_;
   std::vector<Term> terms_;
+  // t_j before the frame of the nodes that its windows have taken; kept where energies of the
+  // user's may ask for it.
+  std::unordered_map<int, Eigen::Vector3d> previous_;
   std::string fault_;
   LevelWindowBuilder windows_;
   std::unique_ptr<LevelSolver> level_one_;

@@ -139,6 +139,7 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
                                   bool catch_up,
                                   FrameReport* report) {
   memory_.BeginFrame(levels_->point_relevant(), &map_);
+  levels_->BeginFrame();
   const FrameObservations observations = FollowSeen(surface, report);
   FollowHidden(catch_up, report);
   report->fault = levels_->fault();

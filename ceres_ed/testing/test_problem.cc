@@ -59,6 +59,7 @@ EnergyContext TestProblem::Context() const {
   context.has_camera = has_camera;
   context.camera_prior = camera_prior;
   context.node_prior = &node_prior;
+  context.node_previous = &node_prior;
   return context;
 }
 

@@ -199,13 +199,17 @@ TEST(EnergyRegistry, ListsEnergiesInTheOrderOfTheirNames) {
   for (const EnergyInfo* info : registry.List()) names.push_back(info->name);
   EXPECT_THAT(names,
               ElementsAre("landmark",
+                          "laplacian",
                           "node_prior",
+                          "pinned_vertex",
                           "point_to_plane",
                           "point_to_point",
                           "pose_prior",
                           "regularization",
-                          "rotation"));
-  EXPECT_EQ(registry.Find("rotation"), registry.List().back());
+                          "rotation",
+                          "temporal_smoothness",
+                          "volume"));
+  EXPECT_EQ(registry.Find("volume"), registry.List().back());
   EXPECT_EQ(registry.Find("rotaton"), nullptr);
 }
 

@@ -12,11 +12,15 @@ Status RegisterRotation(EnergyRegistry* registry);
 Status RegisterRegularization(EnergyRegistry* registry);
 Status RegisterNodePrior(EnergyRegistry* registry);
 Status RegisterPosePrior(EnergyRegistry* registry);
+Status RegisterLaplacian(EnergyRegistry* registry);
+Status RegisterVolume(EnergyRegistry* registry);
+Status RegisterTemporalSmoothness(EnergyRegistry* registry);
 
 // Observations.
 Status RegisterPointToPlane(EnergyRegistry* registry);
 Status RegisterPointToPoint(EnergyRegistry* registry);
 Status RegisterLandmark(EnergyRegistry* registry);
+Status RegisterPinnedVertex(EnergyRegistry* registry);
 
 }  // namespace ceres_ed
 
