@@ -160,11 +160,11 @@ Similarity ToSimilarity(const py::handle& object, const std::string& what, bool 
   }
   const Eigen::Matrix4d matrix =
       Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>>(array.data());
-  const Eigen::Matrix3d sR = matrix.topLeftCorner<3, 3>();
-  const double determinant = sR.determinant();
+  const Eigen::Matrix3d scaled = matrix.topLeftCorner<3, 3>();
+  const double determinant = scaled.determinant();
   Similarity similarity;
   similarity.scale = with_scale ? std::cbrt(determinant) : 1.0;
-  const Eigen::Matrix3d R = sR / similarity.scale;
+  const Eigen::Matrix3d R = scaled / similarity.scale;
   // Poses of files and sensors have few digits.
   constexpr double kTolerance = 1e-3;
   const bool is_rigid = matrix.allFinite() && determinant > 0.0 &&

@@ -8,7 +8,7 @@
 
 #include <memory>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include <pybind11/pybind11.h>
 
@@ -37,7 +37,10 @@ class SurfaceArgument {
 
   const PointCloud& operator*() const { return shared_ != nullptr ? *shared_ : own_; }
   // A copy of what belongs to a Cloud, else the surface itself.
-  PointCloud Take() && { return shared_ != nullptr ? *shared_ : std::move(own_); }
+  PointCloud Take() && {
+    if (shared_ != nullptr) return *shared_;
+    return std::move(own_);
+  }
 
  private:
   // Keeps the Cloud alive.
