@@ -6,7 +6,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=${1:?usage: configure.sh PRESET [CMAKE OPTION ...]}
 shift
 launcher=()
-if command -v ccache >/dev/null; then launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache); fi
+# With paths relative to the sources, what one build folder has compiled serves the others.
+if command -v ccache >/dev/null; then
+  launcher=("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_BASEDIR=$PWD;ccache")
+fi
 log=build/$preset-configure.log
 mkdir -p build
 if ! cmake --preset "$preset" "${launcher[@]}" "$@" >"$log" 2>&1; then

@@ -1,8 +1,20 @@
 #!/usr/bin/env bash
-# Fits every pair in data/, tracks a small simulated sequence, and measures both against the truth. The
-# first run builds the programs; the next ones take seconds. Results go to build/demo/.
+# Fits every sample pair, tracks a small simulated sequence, and measures both against the truth:
+#   scripts/demo.sh        builds the programs first (minutes, once); results go to build/demo/
+#   ceres_ed_demo [FOLDER]  the same script where ceres_ed is installed; results go to ./ceres_ed_demo/
+# With CERES_ED_BIN=FOLDER in the environment the programs are those in FOLDER, and nothing is built.
 set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+apps=${CERES_ED_BIN:+$(cd "$CERES_ED_BIN" && pwd)}
+if [[ -f $here/../CMakeLists.txt ]]; then
+  cd "$here/.."
+  data=data
+  results=${1:-build/demo}
+else
+  data=$(dirname "$here")/share/ceres_ed/data
+  results=${1:-ceres_ed_demo}
+  apps=${apps:-$here}
+fi
 
 say() { printf '\n== %s\n' "$*"; }
 
@@ -15,18 +27,20 @@ number() {
     END { if (!found) print "-" }' "$1"
 }
 
-say "packages"
-scripts/setup.sh
-say "programs (the first time takes a few minutes)"
-scripts/configure.sh release
-cmake --build build/release --parallel "$(nproc)" --target ed_fit ed_eval ed_slam ed_simulate
+if [[ -z $apps ]]; then
+  apps=build/release/apps
+  say "packages"
+  scripts/setup.sh
+  say "programs (the first time takes a few minutes)"
+  scripts/configure.sh release
+  cmake --build build/release --parallel "$(nproc)" --target ed_fit ed_eval ed_slam ed_simulate
+fi
 
-apps=build/release/apps
 rows=()
-for source in data/*/source.ply; do
-  pair=$(basename "$(dirname "$source")")
-  folder=data/$pair
-  out=build/demo/$pair
+for source in "$data"/*/source.ply; do
+  folder=$(dirname "$source")
+  pair=$(basename "$folder")
+  out=$results/$pair
   mkdir -p "$out"
   say "$pair: fit $source to $folder/target.ply"
   "$apps/ed_fit" "$source" "$folder/target.ply" --output="$out/fitted.ply" \
@@ -40,7 +54,7 @@ for source in data/*/source.ply; do
 done
 
 # From the target, for most of a result has no counterpart where the target is a partial view.
-say "mean distances in percent of the target's diagonal, and time; results are in build/demo/"
+say "mean distances in percent of the target's diagonal, and time; results are in $results/"
 printf '%-18s %18s %18s %10s\n' pair "target to result" "result to truth" seconds
 for row in "${rows[@]}"; do
   read -r pair surface truth seconds <<<"$row"
@@ -50,7 +64,7 @@ for row in "${rows[@]}"; do
   printf '%-18s %18s %18s %10s\n' "$pair" "$surface" "$truth" "$seconds"
 done
 
-sequence=build/demo/heart
+sequence=$results/heart
 say "a camera circles a beating heart: simulate, track, measure"
 "$apps/ed_simulate" heart --output="$sequence" --frames=20 --width=320 --height=240 --overwrite
 "$apps/ed_slam" "$sequence" --output="$sequence-tracked"

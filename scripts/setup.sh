@@ -3,7 +3,7 @@
 set -euo pipefail
 
 packages=(
-  build-essential cmake ninja-build ccache
+  build-essential cmake ninja-build ccache pkg-config file
   libceres-dev libeigen3-dev libsuitesparse-dev libopenblas-dev
   libgoogle-glog-dev libgflags-dev
   libnanoflann-dev nlohmann-json3-dev libpcl-dev libboost-dev

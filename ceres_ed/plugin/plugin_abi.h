@@ -5,7 +5,7 @@
 //   }
 //   CERES_ED_PLUGIN(RegisterMine)
 //
-// Build it as a CMake MODULE library that links ceres_ed::ceres_ed.
+// Build it with ceres_ed_add_plugin(NAME SOURCE ...), which find_package(ceres_ed) brings along.
 #ifndef CERES_ED_PLUGIN_PLUGIN_ABI_H_
 #define CERES_ED_PLUGIN_PLUGIN_ABI_H_
 

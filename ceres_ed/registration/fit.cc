@@ -6,6 +6,7 @@
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
 #include <ceres_ed/registration/fit_validation.h>
+#include <ceres_ed/registration/surface.h>
 #include <ceres_ed/registration/unfold.h>
 #include <ceres_ed/registration/vertex_finish.h>
 #include <ceres_ed/util/timer.h>
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -86,8 +88,12 @@ std::vector<Correspondence> InUnitFrame(const std::vector<PointConstraint>& cons
 // One fit: the steps of Fit() and what they share.
 class Fitter {
  public:
-  Fitter(const FitInput& input, const FitOptions& options, const EnergyRegistry& registry)
-      : input_(input), options_(options), registry_(registry) {}
+  // `surface` is that of the source, as it is given; null: made where it is wanted.
+  Fitter(const FitInput& input,
+         const FitOptions& options,
+         const EnergyRegistry& registry,
+         const Surface* surface)
+      : input_(input), options_(options), registry_(registry), source_surface_(surface) {}
 
   StatusOr<FitResult> Run();
 
@@ -107,6 +113,7 @@ class Fitter {
   const FitInput& input_;
   const FitOptions& options_;
   const EnergyRegistry& registry_;
+  const Surface* source_surface_;
   const Timer clock_;
   Similarity unit_from_target_;
   FitResult result_;
@@ -123,7 +130,9 @@ void Fitter::PlaceRigidly() {
       return (options_.should_stop && options_.should_stop()) ||
              clock_.Seconds() >= options_.time_limit_s;
     };
-    const Surface source(input_.source, options_.num_threads);
+    std::optional<Surface> made;
+    if (source_surface_ == nullptr) made.emplace(input_.source, options_.num_threads);
+    const Surface& source = source_surface_ != nullptr ? *source_surface_ : *made;
     const Surface target(input_.target, options_.num_threads);
     result_.rigid = AlignRigid(source, target, result_.rigid, rigid).target_from_source;
   }
@@ -312,7 +321,7 @@ StatusOr<FitResult> Fitter::Run() {
 StatusOr<FitResult> Fit(const FitInput& input,
                         const FitOptions& options,
                         const EnergyRegistry& registry) {
-  return Fitter(input, options, registry).Run();
+  return Fitter(input, options, registry, /*surface=*/nullptr).Run();
 }
 
 StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target) {
@@ -322,6 +331,32 @@ StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target) {
   EnergyRegistry registry;
   RegisterBuiltinEnergies(&registry);
   return Fit(input, {}, registry);
+}
+
+SurfaceFitter::SurfaceFitter(PointCloud source,
+                             const FitOptions& options,
+                             const EnergyRegistry& registry)
+    : source_(std::move(source)),
+      options_(options),
+      registry_(registry),
+      surface_(std::make_unique<const Surface>(source_, options.num_threads)) {}
+
+SurfaceFitter::~SurfaceFitter() = default;
+
+StatusOr<std::unique_ptr<SurfaceFitter>> SurfaceFitter::Create(PointCloud source,
+                                                               const FitOptions& options,
+                                                               const EnergyRegistry& registry) {
+  std::string error;
+  if (!options.IsValid(&error)) return Status::Error(error);
+  if (Status status = ValidateSource(source); !status.ok()) return status;
+  return std::unique_ptr<SurfaceFitter>(new SurfaceFitter(std::move(source), options, registry));
+}
+
+StatusOr<FitResult> SurfaceFitter::Fit(const PointCloud& target,
+                                       const std::vector<PointConstraint>& landmarks,
+                                       const std::vector<int>& fixed_points) const {
+  const FitInput input = {source_, target, landmarks, fixed_points};
+  return Fitter(input, options_, registry_, surface_.get()).Run();
 }
 
 }  // namespace ceres_ed

@@ -23,10 +23,6 @@ Status CheckIndex(const char* what, int point, std::size_t size) {
 }
 
 Status CheckPoints(const FitInput& input) {
-  if (input.source.size() < kMinPoints) {
-    return Status::Error("the source has " + std::to_string(input.source.size()) +
-                         " points, a fit needs at least " + std::to_string(kMinPoints));
-  }
   if (input.target.empty() && input.landmarks.empty()) {
     return Status::Error("a fit needs a target or landmarks");
   }
@@ -47,7 +43,6 @@ Status CheckPoints(const FitInput& input) {
 
 Status CheckScale(const FitInput& input, const FitOptions& options) {
   const double source = Diagonal(input.source.points);
-  if (!(source > 0.0)) return Status::Error("the source has no extent: all its points coincide");
   if (input.target.empty()) return Status::Ok();
   const double target = Diagonal(input.target.points);
   if (!(target > 0.0)) return Status::Error("the target has no extent: all its points coincide");
@@ -111,9 +106,19 @@ bool FitOptions::IsValid(std::string* error) const {
   return error->empty();
 }
 
+Status ValidateSource(const PointCloud& source) {
+  if (source.size() < kMinPoints) {
+    return Status::Error("the source has " + std::to_string(source.size()) +
+                         " points, a fit needs at least " + std::to_string(kMinPoints));
+  }
+  if (Diagonal(source.points) > 0.0) return Status::Ok();
+  return Status::Error("the source has no extent: all its points coincide");
+}
+
 Status ValidateFit(const FitInput& input, const FitOptions& options) {
   std::string error;
   if (!options.IsValid(&error)) return Status::Error(error);
+  if (Status status = ValidateSource(input.source); !status.ok()) return status;
   if (Status status = CheckPoints(input); !status.ok()) return status;
   return CheckScale(input, options);
 }

@@ -7,6 +7,9 @@
 
 namespace ceres_ed {
 
+// Error: too few points, no extent.
+Status ValidateSource(const PointCloud& source);
+
 // Error: options out of range, too few points, no extent, indices that aren't there, surfaces that
 // share no scale.
 Status ValidateFit(const FitInput& input, const FitOptions& options);

@@ -1,15 +1,45 @@
-# What `cmake --install` puts where, and the package that find_package(ceres_ed) finds afterwards.
+# What `cmake --install` puts where, and the package that find_package(ceres_ed) finds afterwards. Parts
+# that can be installed alone, by `cmake --install ... --component`:
+#   library  what a program needs to run: libceres_ed.so.*, nothing of a static build
+#   dev      what one needs to be built: headers, libceres_ed.so or .a, package files
+#   tools    programs, the demo and its data
+#   python   left to the folder that has bindings
+#   doc      the licence; each Debian package has one of its own (packages.cmake)
 include(CMakePackageConfigHelpers)
 
 set(ceres_ed_headers_dir ${CMAKE_INSTALL_INCLUDEDIR}/ceres_ed-${PROJECT_VERSION})
 set(ceres_ed_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/ceres_ed)
 
-install(TARGETS ceres_ed ceres_ed_cost_functions EXPORT ceres_ed-targets)
-install(DIRECTORY ceres_ed cost_functions DESTINATION ${ceres_ed_headers_dir} FILES_MATCHING PATTERN "*.h")
-install(FILES ${PROJECT_BINARY_DIR}/include/ceres_ed/version.h DESTINATION ${ceres_ed_headers_dir}/ceres_ed)
+# An export a component of find_package.
+install(TARGETS ceres_ed_cost_functions EXPORT ceres_ed-cost_functions-targets)
+install(
+  TARGETS ceres_ed
+  EXPORT ceres_ed-library-targets
+  LIBRARY COMPONENT library NAMELINK_COMPONENT dev
+  ARCHIVE COMPONENT dev)
+foreach(part cost_functions library)
+  install(EXPORT ceres_ed-${part}-targets NAMESPACE ceres_ed:: DESTINATION ${ceres_ed_package_dir}
+          COMPONENT dev)
+endforeach()
+if(CERES_ED_BUILD_APPS)
+  install(EXPORT ceres_ed-tools-targets NAMESPACE ceres_ed:: DESTINATION ${ceres_ed_package_dir}
+          COMPONENT tools)
+endif()
 
-install(EXPORT ceres_ed-targets NAMESPACE ceres_ed:: DESTINATION ${ceres_ed_package_dir})
+install(DIRECTORY ceres_ed cost_functions DESTINATION ${ceres_ed_headers_dir} COMPONENT dev
+        FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_BINARY_DIR}/include/ceres_ed/version.h
+        DESTINATION ${ceres_ed_headers_dir}/ceres_ed COMPONENT dev)
+
+# What the users of the library link: of a shared one, what its headers use and the BLAS that must stand
+# ahead of others; of an archive, everything.
 get_property(CERES_ED_EXTERNALS GLOBAL PROPERTY CERES_ED_EXTERNALS)
+set(ceres_ed_private_externals ${CERES_ED_EXTERNALS})
+list(REMOVE_ITEM ceres_ed_private_externals openblas)
+get_target_property(ceres_ed_kind ceres_ed TYPE)
+if(ceres_ed_kind STREQUAL SHARED_LIBRARY)
+  list(REMOVE_ITEM CERES_ED_EXTERNALS ${ceres_ed_private_externals})
+endif()
 configure_package_config_file(
   scripts/cmake/ceres_ed-config.cmake.in ${PROJECT_BINARY_DIR}/ceres_ed-config.cmake
   INSTALL_DESTINATION ${ceres_ed_package_dir})
@@ -18,4 +48,35 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/ceres_ed-config-version.c
 install(FILES ${PROJECT_BINARY_DIR}/ceres_ed-config.cmake
               ${PROJECT_BINARY_DIR}/ceres_ed-config-version.cmake
               scripts/cmake/ceres_ed-external.cmake
-        DESTINATION ${ceres_ed_package_dir})
+              scripts/cmake/ceres_ed-plugin.cmake
+        DESTINATION ${ceres_ed_package_dir} COMPONENT dev)
+
+# The same for pkg-config. Ceres and glog have no files of their own for it.
+set(ceres_ed_pc_libraries ceres glog)
+set(ceres_ed_pc_private_libraries ${ceres_ed_private_externals} pthread ${CMAKE_DL_LIBS})
+if(openblas IN_LIST CERES_ED_EXTERNALS)
+  list(PREPEND ceres_ed_pc_libraries openblas)
+endif()
+if(ceres_ed_kind STREQUAL STATIC_LIBRARY)
+  # So that nobody has to know which kind is installed, and to say --static.
+  list(APPEND ceres_ed_pc_libraries ${ceres_ed_pc_private_libraries})
+  set(ceres_ed_pc_private_libraries "")
+endif()
+list(TRANSFORM ceres_ed_pc_libraries PREPEND -l OUTPUT_VARIABLE CERES_ED_PC_LIBS)
+list(TRANSFORM ceres_ed_pc_private_libraries PREPEND -l OUTPUT_VARIABLE CERES_ED_PC_LIBS_PRIVATE)
+list(JOIN CERES_ED_PC_LIBS " " CERES_ED_PC_LIBS)
+list(JOIN CERES_ED_PC_LIBS_PRIVATE " " CERES_ED_PC_LIBS_PRIVATE)
+# Relative to the file, so that the package can be moved.
+file(RELATIVE_PATH CERES_ED_PC_PREFIX ${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig ${CMAKE_INSTALL_PREFIX})
+string(REGEX REPLACE "/$" "" CERES_ED_PC_PREFIX ${CERES_ED_PC_PREFIX})
+file(RELATIVE_PATH CERES_ED_PC_LIBDIR ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_LIBDIR})
+file(RELATIVE_PATH CERES_ED_PC_INCLUDEDIR ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTALL_FULL_INCLUDEDIR})
+configure_file(scripts/cmake/ceres_ed.pc.in ${PROJECT_BINARY_DIR}/ceres_ed.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/ceres_ed.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
+
+install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ceres_ed COMPONENT doc)
+if(CERES_ED_BUILD_APPS)
+  install(PROGRAMS scripts/demo.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ceres_ed_demo COMPONENT tools)
+  install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/ceres_ed COMPONENT tools
+          FILES_MATCHING REGEX "/data/[^/]+/[^/]+$")
+endif()

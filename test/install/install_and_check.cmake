@@ -1,22 +1,13 @@
-# Installs `build` afresh into `prefix`, and fails when the package holds what it must not.
+# Installs `build` afresh into `prefix`, and fails when the package files hold what they must not.
 cmake_minimum_required(VERSION 3.18)
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 file(REMOVE_RECURSE ${prefix})
-execute_process(COMMAND ${CMAKE_COMMAND} --install ${build} --prefix ${prefix}
-                RESULT_VARIABLE result OUTPUT_QUIET ERROR_VARIABLE error)
-if(NOT result EQUAL 0)
-  message(FATAL_ERROR "cmake --install: ${error}")
-endif()
+run(out ${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
 
-file(GLOB_RECURSE package_files ${prefix}/*ceres_ed-*.cmake)
+file(GLOB_RECURSE package_files ${prefix}/*ceres_ed*.cmake ${prefix}/*ceres_ed.pc)
 if(NOT package_files)
   message(FATAL_ERROR "no package files in ${prefix}")
 endif()
 foreach(file IN LISTS package_files)
-  file(READ ${file} text)
-  foreach(forbidden "${source}" "${build}" nlohmann)
-    string(FIND "${text}" "${forbidden}" position)
-    if(NOT position EQUAL -1)
-      message(FATAL_ERROR "${file} names ${forbidden}")
-    endif()
-  endforeach()
+  expect_no_paths(${file} ${source} ${build} nlohmann)
 endforeach()

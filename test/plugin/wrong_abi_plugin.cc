@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-extern "C" const char* CERES_ED_PLUGIN_ABI_SYMBOL() {
+extern "C" __attribute__((visibility("default"))) const char* CERES_ED_PLUGIN_ABI_SYMBOL() {
   static const std::string abi = [] {
     std::string text = CERES_ED_PLUGIN_ABI;
     const std::size_t eigen = text.find(";Eigen ") + 1;
@@ -13,6 +13,7 @@ extern "C" const char* CERES_ED_PLUGIN_ABI_SYMBOL() {
   return abi.c_str();
 }
 
-extern "C" void CERES_ED_PLUGIN_REGISTER_SYMBOL(ceres_ed::EnergyRegistry*, ceres_ed::Status*) {
+extern "C" __attribute__((visibility("default"))) void CERES_ED_PLUGIN_REGISTER_SYMBOL(
+    ceres_ed::EnergyRegistry*, ceres_ed::Status*) {
   std::abort();
 }

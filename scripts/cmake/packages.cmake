@@ -1,0 +1,73 @@
+# Debian packages by `cpack`, one a component of install.cmake. They are made of a shared build with the
+# prefix /usr (scripts/package.sh).
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME ceres-ed)
+set(CPACK_PACKAGE_VENDOR "the ceres_ed authors")
+# Whoever hands packages on puts an address here (-DCPACK_PACKAGE_CONTACT="Name <mail>").
+if(NOT CPACK_PACKAGE_CONTACT)
+  set(CPACK_PACKAGE_CONTACT ${CPACK_PACKAGE_VENDOR})
+endif()
+# Each package has a summary of its own.
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+# Dependencies are what the binaries load; that the tools load libceres_ed.so dpkg can't know yet.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/ceres_ed)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_COMPONENTS_ALL "")
+
+# ceres_ed_add_package(COMPONENT NAME SECTION DEPENDS SUMMARY TEXT): the package NAME.
+function(ceres_ed_add_package component name section depends summary text)
+  string(TOUPPER ${component} key)
+  # Excluded from a plain install, which has one licence for all.
+  install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} RENAME copyright
+          COMPONENT ${component} EXCLUDE_FROM_ALL)
+  set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${name} PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_PACKAGE_SECTION ${section} PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
+  set(CPACK_DEBIAN_${key}_DESCRIPTION "${summary}\n${text}" PARENT_SCOPE)
+  set(CPACK_COMPONENTS_ALL ${CPACK_COMPONENTS_ALL} ${component} PARENT_SCOPE)
+endfunction()
+
+set(ceres_ed_runtime libceres-ed${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+set(ceres_ed_same_version "${ceres_ed_runtime} (= ${PROJECT_VERSION})")
+set(ceres_ed_dev_depends "${ceres_ed_same_version}, libceres-dev (>= 2.1), libeigen3-dev (>= 3.4)")
+if(openblas IN_LIST CERES_ED_EXTERNALS)
+  string(APPEND ceres_ed_dev_depends ", libopenblas-dev")
+endif()
+set(ceres_ed_text
+    "Fits one surface to another, and tracks tissue that deforms under a
+moving depth camera, with an embedded-deformation graph on Ceres Solver.")
+
+ceres_ed_add_package(library ${ceres_ed_runtime} libs "" "embedded deformation graphs: shared library"
+                     "${ceres_ed_text}")
+ceres_ed_add_package(
+  dev libceres-ed-dev libdevel "${ceres_ed_dev_depends}" "embedded deformation graphs: development files"
+  "${ceres_ed_text}\n
+This package has what programs and plugins are built with: headers, and
+files for CMake and pkg-config.")
+if(CERES_ED_BUILD_APPS)
+  ceres_ed_add_package(
+    tools ceres-ed-tools science "${ceres_ed_same_version}" "embedded deformation graphs: programs"
+    "${ceres_ed_text}\n
+This package has ed_fit, ed_apply, ed_slam, ed_simulate, ed_eval and
+ed_list_energies, sample data, and ceres_ed_demo, which shows them.")
+endif()
+# Bindings are packaged where a folder has installed some as the component `python`.
+get_cmake_property(ceres_ed_components COMPONENTS)
+if(python IN_LIST ceres_ed_components)
+  ceres_ed_add_package(
+    python python3-ceres-ed python "${ceres_ed_same_version}, python3, python3-numpy"
+    "embedded deformation graphs: Python bindings" "${ceres_ed_text}")
+endif()
+
+if(NOT BUILD_SHARED_LIBS)
+  # Says so when cpack is called; a static build is fine for anything else.
+  set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/scripts/cmake/packages_refused.cmake)
+endif()
+include(CPack)

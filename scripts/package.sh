@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# Builds the Debian packages into build/packages/: the library, what programs are built with, and the tools.
+# package.sh [CMAKE OPTION ...]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+packages=build/packages
+scripts/setup.sh
+# A folder of its own beside that of the preset: same objects, so a compiler cache serves both.
+scripts/configure.sh release -B build/release-packages -DBUILD_SHARED_LIBS=ON \
+  -DCMAKE_INSTALL_PREFIX=/usr -DCERES_ED_BUILD_TESTS=OFF -DCERES_ED_BUILD_APPS=ON "$@"
+cmake --build build/release-packages --parallel "$(nproc)"
+rm -rf "$packages"
+cpack --config build/release-packages/CPackConfig.cmake -B "$packages"
+rm -rf "$packages/_CPack_Packages"
+for package in "$packages"/*.deb; do
+  printf '\n%s\n' "$package"
+  # shellcheck disable=SC2016  # a field of dpkg's
+  dpkg-deb --show --showformat '  depends: ${Depends}\n' "$package"
+done

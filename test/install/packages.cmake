@@ -1,0 +1,71 @@
+# Makes the Debian packages of `build`, checks what they say and hold, and runs ed_fit of them.
+cmake_minimum_required(VERSION 3.18)
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+set(triplet "[a-z0-9_]+-linux-gnu")
+
+file(REMOVE_RECURSE ${folder})
+run(out ${cpack} --config ${build}/CPackConfig.cmake -B ${folder})
+
+# check_package(NAME DEPENDS FILE ...): NAME depends on what the expression DEPENDS matches and has the files
+# that the others match. Unpacks it into folder/root.
+function(check_package name depends)
+  file(GLOB package ${folder}/${name}_*.deb)
+  list(LENGTH package count)
+  if(NOT count EQUAL 1)
+    message(FATAL_ERROR "packages of ${name}: '${package}', expected one")
+  endif()
+  foreach(field Package Version Architecture Maintainer Description Section)
+    run(value dpkg-deb --field ${package} ${field})
+    if(NOT value)
+      message(FATAL_ERROR "${package} has no ${field}")
+    endif()
+  endforeach()
+  run(value dpkg-deb --field ${package} Depends)
+  message(STATUS "${name} depends on ${value}")
+  if(NOT value MATCHES "${depends}")
+    message(FATAL_ERROR "${name} depends on '${value}', expected ${depends}")
+  endif()
+  run(contents dpkg-deb --contents ${package})
+  foreach(file IN LISTS ARGN ITEMS "/usr/share/doc/${name}/copyright")
+    if(NOT contents MATCHES " \\.${file}( ->[^\n]*)?(\n|$)")
+      message(FATAL_ERROR "${package} has no ${file}:\n${contents}")
+    endif()
+  endforeach()
+  # All is root's, below /usr, and nobody else's to write.
+  string(REPLACE "\n" ";" lines "${contents}")
+  foreach(line IN LISTS lines)
+    if(NOT line MATCHES "^([-d]rw[-x]r-[-x]r-[-x]|lrwxrwxrwx) root/root .* \\./(usr/.*)?( ->.*)?$")
+      message(FATAL_ERROR "${package} has: ${line}")
+    endif()
+  endforeach()
+  run(out dpkg-deb --extract ${package} ${folder}/root)
+endfunction()
+
+set(library libceres-ed${soversion})
+check_package(${library} "libc6 .*libgoogle-glog.*libopencv-core" "/usr/lib/${triplet}/libceres_ed.so.${soversion}")
+check_package(
+  libceres-ed-dev "${library} \\(= ${version}\\).*libceres-dev.*libeigen3-dev"
+  "/usr/lib/${triplet}/libceres_ed.so"
+  "/usr/lib/${triplet}/cmake/ceres_ed/ceres_ed-config.cmake"
+  "/usr/lib/${triplet}/pkgconfig/ceres_ed.pc"
+  "/usr/include/ceres_ed-${version}/ceres_ed/version.h"
+  "/usr/include/ceres_ed-${version}/cost_functions/warp.h")
+check_package(
+  ceres-ed-tools "${library} \\(= ${version}\\).*libgflags" /usr/bin/ed_fit /usr/bin/ed_slam
+  /usr/bin/ceres_ed_demo /usr/share/ceres_ed/data/plane_bumps/source.ply
+  "/usr/lib/${triplet}/cmake/ceres_ed/ceres_ed-tools-targets.cmake")
+
+# Nothing of the machine that built them, in binaries neither.
+execute_process(
+  COMMAND grep --recursive --files-with-matches --fixed-strings -e ${source}/ -e ${build}/ ${folder}/root
+  RESULT_VARIABLE result OUTPUT_VARIABLE files)
+# 1: no match; 0 and 2 are a match and a failure.
+if(NOT result EQUAL 1)
+  message(FATAL_ERROR "these name ${source} or ${build}:\n${files}")
+endif()
+
+file(GLOB library_dir ${folder}/root/usr/lib/*-linux-gnu)
+set(ENV{LD_LIBRARY_PATH} "${library_dir}:$ENV{LD_LIBRARY_PATH}")
+set(root ${folder}/root/usr)
+run(out ${root}/bin/ed_fit ${root}/share/ceres_ed/data/plane_bumps/source.ply
+    ${root}/share/ceres_ed/data/plane_bumps/target.ply --output=${folder}/fitted.ply)

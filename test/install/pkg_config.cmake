@@ -1,0 +1,17 @@
+# Builds `source` with what pkg-config says of the ceres_ed in `prefix`, and runs it.
+cmake_minimum_required(VERSION 3.18)
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+file(GLOB_RECURSE pc ${prefix}/*/ceres_ed.pc)
+get_filename_component(pc_dir ${pc} DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${pc_dir})
+run(version pkg-config --modversion ceres_ed)
+run(words pkg-config --cflags --libs ceres_ed)
+run(libdir pkg-config --variable=libdir ceres_ed)
+message(STATUS "ceres_ed ${version}: ${words}")
+separate_arguments(words UNIX_COMMAND "${words}")
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run(out ${compiler} ${flags} ${source} -o ${program} ${words})
+# As for any library in a folder that the loader doesn't know.
+set(ENV{LD_LIBRARY_PATH} "${libdir}:$ENV{LD_LIBRARY_PATH}")
+run(out ${program})
+message(STATUS "${out}")

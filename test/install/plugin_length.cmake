@@ -1,0 +1,13 @@
+# An energy is at most 40 lines, and its project at most 10.
+cmake_minimum_required(VERSION 3.18)
+foreach(limit floor_energy.cc=40 CMakeLists.txt=10)
+  string(REPLACE "=" ";" limit ${limit})
+  list(GET limit 0 file)
+  list(GET limit 1 most)
+  file(READ ${folder}/${file} text)
+  string(REGEX MATCHALL "\n" ends "${text}")
+  list(LENGTH ends lines)
+  if(lines LESS 1 OR lines GREATER most)
+    message(FATAL_ERROR "${file} has ${lines} lines, expected at most ${most}")
+  endif()
+endforeach()
