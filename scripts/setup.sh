@@ -9,6 +9,7 @@ packages=(
   libnanoflann-dev nlohmann-json3-dev libpcl-dev libboost-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev
   libgtest-dev libgmock-dev
+  python3 doxygen
 )
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

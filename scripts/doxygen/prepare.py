@@ -2,11 +2,13 @@
 """Writes what Doxygen reads: prepare.py FOLDER. Run in the root.
 
 Public headers with their `//` comments as documentation, and the pages beside them, at the same
-paths and lines below FOLDER.
+paths and lines below FOLDER. Fails where a comment names a file that isn't there: Doxygen would not
+say so.
 """
 
 import glob
 import os
+import re
 import shutil
 import sys
 
@@ -15,6 +17,26 @@ from pages import convert_page
 
 HEADERS = ["ceres_ed/**/*.h", "cost_functions/*.h"]
 PAGES = ["README.md", "apps/examples/README.md", "ceres_ed/**/README.md", "data/README.md"]
+
+
+def source_names():
+    """Names of all files of the repository, without their folders."""
+    names = set()
+    for folder, subfolders, files in os.walk("."):
+        subfolders[:] = [name for name in subfolders if name not in (".git", "build")]
+        names.update(files)
+    return names
+
+
+def missing_files(text, path, names):
+    """Returns a warning for each file that a comment names and that is not in `names`."""
+    warnings = []
+    for number, line in enumerate(text.split("\n"), 1):
+        comment = line.partition("//")[2]
+        for name in re.findall(r"[\w/]+\.(?:h|cc|py)\b", comment):
+            if os.path.basename(name) not in names:
+                warnings.append(f"{path}:{number}: warning: there is no file {name}")
+    return warnings
 
 
 def write(patterns, folder, convert):
@@ -29,12 +51,20 @@ def write(patterns, folder, convert):
 
 
 def main():
-    """Writes all of it afresh."""
+    """Writes all of it afresh; returns warnings."""
     folder = sys.argv[1]
     shutil.rmtree(folder, ignore_errors=True)
-    write(HEADERS, folder, convert_header)
+    names = source_names()
+    warnings = []
+
+    def convert(text, path):
+        warnings.extend(missing_files(text, path, names))
+        return convert_header(text, path)
+
+    write(HEADERS, folder, convert)
     write(PAGES, folder, convert_page)
+    return "\n".join(warnings)
 
 
 if __name__ == "__main__":
-    main()
+    sys.exit(main() or 0)
