@@ -36,6 +36,19 @@ def target(link, folder):
     return None
 
 
+def missing_links(text, path):
+    """Returns a warning for each link of a page to a file that isn't there."""
+    warnings = []
+    for match in LINK.finditer(text):
+        link = match[2].partition("#")[0]
+        if re.match(r"https?://", match[2]) or link == "":
+            continue
+        if not os.path.exists(os.path.join(ROOT, os.path.dirname(path), link)):
+            number = text.count("\n", 0, match.start()) + 1
+            warnings.append(f"{path}:{number}: warning: there is no file {link}")
+    return warnings
+
+
 def convert_line(line, folder, page):
     """One line outside of code."""
     heading = re.match(r"^(#{1,6}) (.*)$", line)

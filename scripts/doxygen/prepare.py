@@ -2,8 +2,8 @@
 """Writes what Doxygen reads: prepare.py FOLDER. Run in the root.
 
 Public headers with their `//` comments as documentation, and the pages beside them, at the same
-paths and lines below FOLDER. Fails where a comment names a file that isn't there: Doxygen would not
-say so.
+paths and lines below FOLDER. Fails where a comment or a link names a file that isn't there: Doxygen
+would not say so.
 """
 
 import glob
@@ -13,7 +13,7 @@ import shutil
 import sys
 
 from headers import convert_header
-from pages import convert_page
+from pages import convert_page, missing_links
 
 HEADERS = ["ceres_ed/**/*.h", "cost_functions/*.h"]
 PAGES = ["README.md", "apps/examples/README.md", "ceres_ed/**/README.md", "data/README.md"]
@@ -57,12 +57,16 @@ def main():
     names = source_names()
     warnings = []
 
-    def convert(text, path):
+    def header(text, path):
         warnings.extend(missing_files(text, path, names))
         return convert_header(text, path)
 
-    write(HEADERS, folder, convert)
-    write(PAGES, folder, convert_page)
+    def page(text, path):
+        warnings.extend(missing_links(text, path))
+        return convert_page(text, path)
+
+    write(HEADERS, folder, header)
+    write(PAGES, folder, page)
     return "\n".join(warnings)
 
 
