@@ -9,7 +9,8 @@ packages=(
   libnanoflann-dev nlohmann-json3-dev libpcl-dev libboost-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev
   libgtest-dev libgmock-dev
-  python3 doxygen
+  doxygen
+  python3-dev pybind11-dev python3-numpy python3-pytest python3-pil mypy
 )
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then

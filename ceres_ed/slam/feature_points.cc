@@ -39,7 +39,7 @@ MaskImage Measured(const ObservedSurface& surface) {
 
 }  // namespace
 
-void FeaturePoints::Track(const ColorImage& image,
+void FeaturePoints::Track(ColorView image,
                           const ObservedSurface& surface,
                           const DeformableMap& map,
                           const CameraPose& camera_from_map) {

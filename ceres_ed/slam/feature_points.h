@@ -32,7 +32,7 @@ class FeaturePoints {
 
   // Follows the corners into `image`; those that are lost, or that land where `surface` has
   // nothing, are gone. `camera_from_map`: the predicted camera.
-  void Track(const ColorImage& image,
+  void Track(ColorView image,
              const ObservedSurface& surface,
              const DeformableMap& map,
              const CameraPose& camera_from_map);

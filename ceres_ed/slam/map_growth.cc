@@ -53,7 +53,7 @@ class Coverage {
 
 std::vector<Candidate> FindCandidates(const std::vector<VisiblePoint>& visible,
                                       const ObservedSurface& surface,
-                                      const ColorImage& color,
+                                      ColorView color,
                                       const MapGrowthOptions& options,
                                       const CameraPose& camera_from_map) {
   Coverage coverage(surface, options.point_spacing);
@@ -195,7 +195,7 @@ Binding PlaceBinder::Bind(const Eigen::Vector3d& place, int neighbors) {
 
 MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
                         const ObservedSurface& surface,
-                        const ColorImage& color,
+                        ColorView color,
                         int frame,
                         const MapGrowthOptions& options,
                         DeformableMap* map) {

@@ -59,7 +59,7 @@ class PlaceBinder {
 // Adds to the map what `surface` shows and `visible` points don't cover.
 MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
                         const ObservedSurface& surface,
-                        const ColorImage& color,
+                        ColorView color,
                         int frame,
                         const MapGrowthOptions& options,
                         DeformableMap* map);

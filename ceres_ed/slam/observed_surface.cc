@@ -36,7 +36,7 @@ double MedianOfDeviations(const std::vector<SurfacePatch>& patches, int step) {
 // Makes patches of sums over windows.
 class PatchFitter {
  public:
-  PatchFitter(const DepthImage& depth,
+  PatchFitter(DepthView depth,
               const PinholeCamera& camera,
               double scale,
               const WindowOptions& options)
@@ -99,7 +99,7 @@ class PatchFitter {
     patch->deviation = std::sqrt(squares / (s.n[i] - 3.0)) * z0;
   }
 
-  const DepthImage& depth_;
+  DepthView depth_;
   const PinholeCamera& camera_;
   double scale_;
   int cell_;
@@ -109,7 +109,7 @@ class PatchFitter {
 
 }  // namespace
 
-ObservedSurface::ObservedSurface(const DepthImage& depth,
+ObservedSurface::ObservedSurface(DepthView depth,
                                  const PinholeCamera& camera,
                                  double scale,
                                  const ObservedSurfaceOptions& options)

@@ -40,7 +40,7 @@ struct SurfacePatch {
 class ObservedSurface {
  public:
   // Lengths are those of `depth` times `scale` (map units a metre).
-  ObservedSurface(const DepthImage& depth,
+  ObservedSurface(DepthView depth,
                   const PinholeCamera& camera,
                   double scale,
                   const ObservedSurfaceOptions& options);

@@ -96,12 +96,12 @@ PixelTracker::PixelTracker(const PixelTrackerOptions& options) : impl_(new Impl)
 
 PixelTracker::~PixelTracker() = default;
 
-void PixelTracker::SetImage(const ColorImage& image) {
+void PixelTracker::SetImage(ColorView image) {
   // OpenCV only reads.
   const cv::Mat rgb(image.height(),
                     image.width(),
                     CV_8UC3,
-                    const_cast<void*>(static_cast<const void*>(image.pixels().data())));
+                    const_cast<void*>(static_cast<const void*>(image.pixels())));
   impl_->gray = Flatten(rgb, impl_->options.light_radius);
   impl_->before = std::move(impl_->now);
   impl_->BuildPyramid();

@@ -42,7 +42,7 @@ class PixelTracker {
   ~PixelTracker();
 
   // The present picture becomes the one before, and `image` the present one.
-  void SetImage(const ColorImage& image);
+  void SetImage(ColorView image);
 
   // Follows pixels of the picture before into the present one. `predicted`: where they are thought
   // to be there.

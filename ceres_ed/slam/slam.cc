@@ -126,7 +126,7 @@ FrameReport DeformableSlam::Process(const SlamFrame& frame) {
   const bool first = unit_ == 0.0;
   if (first) Initialize(frame);
   if (unit_ == 0.0) return report;
-  const ObservedSurface surface(*frame.depth, camera_, 1.0 / unit_, options_.surface);
+  const ObservedSurface surface(frame.depth, camera_, 1.0 / unit_, options_.surface);
   report.times.observe = timer.Seconds();
   if (surface.num_valid() == 0) return report;
 
@@ -146,7 +146,7 @@ FrameReport DeformableSlam::Process(const SlamFrame& frame) {
 }
 
 void DeformableSlam::Initialize(const SlamFrame& frame) {
-  const ObservedSurface surface(*frame.depth, camera_, 1.0, options_.surface);
+  const ObservedSurface surface(frame.depth, camera_, 1.0, options_.surface);
   if (surface.num_valid() == 0) return;
   // Nodes one spacing apart on a plane: each stands for 0.87 of a square of that side.
   unit_ = options_.node_spacing > 0.0
@@ -183,10 +183,10 @@ bool DeformableSlam::FindCamera(const SlamFrame& frame,
   Timer timer;
   const CameraPose before = map_.state().camera_from_map;
   const CameraPose predicted = Predict(frame);
-  const bool color = options_.features && frame.color != nullptr && !frame.color->empty();
+  const bool color = options_.features && !frame.color.empty();
   std::vector<PointMatch> matches;
   if (color) {
-    features_.Track(*frame.color, surface, map_, predicted);
+    features_.Track(frame.color, surface, map_, predicted);
     matches = features_.Matches(map_);
   }
   report->times.features += timer.Restart();

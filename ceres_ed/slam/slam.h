@@ -69,9 +69,10 @@ struct SlamOptions {
 // One frame as it comes from a sensor. Lengths in metres.
 struct SlamFrame {
   int number = 0;
-  const DepthImage* depth = nullptr;
-  // Null or empty: none.
-  const ColorImage* color = nullptr;
+  // Of the camera's size; a pointer to a DepthImage will do, or pixels that are elsewhere.
+  DepthView depth;
+  // Empty: none.
+  ColorView color;
   // For CameraMode::kGiven.
   const CameraPose* world_from_camera = nullptr;
   // Whether all of the map will be asked for after this frame.

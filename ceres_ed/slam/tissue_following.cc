@@ -221,14 +221,12 @@ void DeformableSlam::Grow(const SlamFrame& frame,
                           const ObservedSurface& surface,
                           FrameReport* report) {
   Timer timer;
-  static const ColorImage kNoColor;
-  const bool color = frame.color != nullptr && !frame.color->empty();
   nodes_before_growth_ = map_.graph().num_nodes();
-  GrowMap(visible_, surface, color ? *frame.color : kNoColor, frame.number, options_.growth, &map_);
+  GrowMap(visible_, surface, frame.color, frame.number, options_.growth, &map_);
   report->times.grow += timer.Restart();
-  if (!color || !options_.features) return;
+  if (frame.color.empty() || !options_.features) return;
   if (report->status == FrameStatus::kInitialized) {
-    features_.Track(*frame.color, surface, map_, map_.state().camera_from_map);
+    features_.Track(frame.color, surface, map_, map_.state().camera_from_map);
   }
   features_.Replenish(surface, map_);
   report->times.features += timer.Restart();

@@ -122,7 +122,7 @@ void AddPlaceSums(const PixelRow& row, WindowSums* sums) {
 
 }  // namespace
 
-WindowSummer::WindowSummer(const DepthImage& depth, const WindowOptions& options)
+WindowSummer::WindowSummer(DepthView depth, const WindowOptions& options)
     : depth_(depth),
       cell_(options.cell),
       radius_(options.radius),
@@ -159,7 +159,7 @@ double* WindowSummer::Pixel(int u, int v) {
 
 void WindowSummer::ReadRow(int v) {
   const int width = depth_.width();
-  Invert(depth_.pixels().data() + static_cast<std::size_t>(v) * width, width, line_.data());
+  Invert(depth_.pixels() + static_cast<std::size_t>(v) * width, width, line_.data());
   for (int p = 0; p < std::min(cell_, width); ++p) {
     double* part = Pixel(p, v);
     for (int u = p; u < width; u += cell_) *part++ = line_[u];

@@ -30,7 +30,7 @@ struct WindowSums {
 class WindowSummer {
  public:
   // `depth` must outlive it.
-  WindowSummer(const DepthImage& depth, const WindowOptions& options);
+  WindowSummer(DepthView depth, const WindowOptions& options);
 
   // Sums over the windows around the pixels (u, v0) with u = cell i + cell / 2 for i < count(), the
   // last one at the picture's border where it would be beyond. All are 0 where the middle has no
@@ -51,7 +51,7 @@ class WindowSummer {
   void SumWindows(int begin, int end, int u0, int v0);
   std::array<std::vector<double>*, 10> Sums();
 
-  const DepthImage& depth_;
+  DepthView depth_;
   int cell_;
   int radius_;
   // Side of a window.

@@ -248,7 +248,7 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
     return false;
   }
   Timer timer;
-  equations_.Build(builder, config, DualPoints::kWhereFew);
+  equations_.Build(builder, config, DualResiduals::kWhereTheyPay);
   level.num_variable_nodes = equations_.num_variable_nodes();
   if (level.num_variable_nodes == 0 && !equations_.camera_variable()) {
     summary->status = SolveStatus::kConverged;

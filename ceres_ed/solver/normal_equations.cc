@@ -38,7 +38,7 @@ int NormalEquations::Item::LinearizationSize() const {
 void NormalEquations::Clear() {
   variable_nodes_.clear();
   camera_variable_ = false;
-  num_dual_ = 0;
+  num_dual_points_ = num_dual_ = 0;
   losses_.clear();
   edges_.clear();
   rotations_.clear();
@@ -51,7 +51,7 @@ void NormalEquations::Clear() {
 
 void NormalEquations::Build(const ProblemBuilder& builder,
                             const ProblemConfig& config,
-                            DualPoints dual_points) {
+                            DualResiduals dual_residuals) {
   Clear();
   builder.Select(config, &selected_);
   const int num_nodes = builder.graph().num_nodes();
@@ -72,7 +72,10 @@ void NormalEquations::Build(const ProblemBuilder& builder,
     variable_nodes_.push_back(j);
   }
   AddResiduals(builder, selected_);
-  if (dual_points == DualPoints::kWhereFew) ChooseDual();
+  if (dual_residuals == DualResiduals::kWhereTheyPay) {
+    ChooseDualPoints();
+    ChooseDualItems();
+  }
   AddSlots(builder.graph());
   DealOut(builder.graph());
 }
@@ -162,7 +165,8 @@ void NormalEquations::Plus(const Eigen::VectorXd& delta, DeformationState* state
         delta.segment<kNodeSize>(static_cast<Eigen::Index>(i) * kNodeSize);
   }
   if (!camera_variable_) return;
-  const Eigen::Matrix<double, kCameraTangent, 1> step = delta.tail<kCameraTangent>();
+  const Eigen::Matrix<double, kCameraTangent, 1> step =
+      delta.segment<kCameraTangent>(static_cast<Eigen::Index>(num_variable_nodes()) * kNodeSize);
   CameraPose& camera = state->camera_from_map;
   const Eigen::Vector4d before = camera.rotation.coeffs();
   ceres::EigenQuaternionManifold().Plus(

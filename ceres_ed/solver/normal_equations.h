@@ -18,11 +18,13 @@
 
 namespace ceres_ed {
 
-// Points couple the affine parts of their nodes. Where points are few, dual unknowns y in place of
-// their products keep these apart (see BlockCholesky), with J the Jacobian of the points:
+// Residuals couple the affine parts of their nodes. Dual unknowns y in place of their products keep
+// these apart (see BlockCholesky), with J the Jacobian of the residuals:
 //   [H J^T; J -I] [x; y] = [b; 0]  <=>  (H + J^T J) x = b
+// That pays where points are few, and for a residual on many nodes at once, such as a volume, which
+// would join each of them to all others.
 inline constexpr int kDualSize = 3;
-enum class DualPoints { kNever, kWhereFew };
+enum class DualResiduals { kNever, kWhereTheyPay };
 
 // Unknowns: one block of 12 a variable node, in the order of the nodes, then one of 6 for a
 // variable camera (rotation in the tangent space of ceres::EigenQuaternionManifold, then
@@ -48,7 +50,7 @@ class NormalEquations {
   // Takes the problem of `config`; what was there is gone, its memory is kept.
   void Build(const ProblemBuilder& builder,
              const ProblemConfig& config,
-             DualPoints dual_points = DualPoints::kNever);
+             DualResiduals dual_residuals = DualResiduals::kNever);
   // Takes some residuals of the builder alone, with the blocks in the order of `variable_nodes`;
   // the camera is held.
   void Build(const ProblemBuilder& builder,
@@ -58,7 +60,8 @@ class NormalEquations {
   int num_variable_nodes() const { return static_cast<int>(variable_nodes_.size()); }
   const std::vector<int>& variable_nodes() const { return variable_nodes_; }
   bool camera_variable() const { return camera_variable_; }
-  // Dual blocks, one a point or none: the last ones. Their rows of the gradient are zero.
+  // Dual blocks, of points (one each, or none) and then of wide residuals: the last ones. Their
+  // rows of the gradient are zero.
   int num_dual() const { return num_dual_; }
   // Rows of each block.
   std::vector<int> BlockSizes() const;
@@ -113,8 +116,11 @@ class NormalEquations {
     int width = 0;
     int first_part = 0;
     int num_parts = 0;
-    // Of parts a >= b: first_slot + a (a + 1) / 2 + b. All slots are in this order.
+    // Of parts a >= b: first_slot + a (a + 1) / 2 + b. All slots are in this order. With dual
+    // blocks those of (a, a) come first, and then, dual block by dual block, those with each part.
     int first_slot = 0;
+    int first_dual = 0;
+    int num_dual = 0;
 
     // Doubles that the item's linearisation takes.
     int LinearizationSize() const;
@@ -177,15 +183,21 @@ class NormalEquations {
   void AddItem(const SelectedResidual& residual, const DeformationGraph& graph);
   void AddClosedForm(const SelectedResidual& residual);
   void AddSlot(int a, int b, bool affine);
-  void ChooseDual();
+  void ChooseDualPoints();
+  void ChooseDualItems();
+  int DualBlock(int dual) const { return num_variable_nodes() + (camera_variable_ ? 1 : 0) + dual; }
   void AddGroupSlots(const PointGroup& group, const DeformationGraph& graph);
   void AddDualSlots(const PointGroup& group);
+  void AddDualItemSlots(const Item& item);
   void AddSlots(const DeformationGraph& graph);
   void DealOut(const DeformationGraph& graph);
   void FindTargets(const BlockStructure& structure);
   template <typename Visitor>
   void ForEachSlot(const Task& task, const Visitor& visitor);
-  int NumItemSlots(const Item& item) const { return item.num_parts * (item.num_parts + 1) / 2; }
+  int NumItemSlots(const Item& item) const {
+    return item.num_dual > 0 ? item.num_parts * (1 + item.num_dual)
+                             : item.num_parts * (item.num_parts + 1) / 2;
+  }
   int NumGroupSlots(const PointGroup& group) const;
   int DiagonalSlot(int group, int node) const;
   bool VariesCamera(const PointGroup& group) const { return group.has_camera && camera_variable_; }
@@ -209,6 +221,9 @@ class NormalEquations {
                      ItemScratch* scratch,
                      double* cost) const;
   void AccumulateItem(const Item& item, const double* linearization, const Sums& sums) const;
+  void AccumulateGradient(
+      const Item& item, int part, int slot, const double* linearization, const Sums& sums) const;
+  void SpreadDualItem(const Item& item, const double* linearization, const Sums& sums) const;
   bool LinearizeQuadratic(const Item& item,
                           const DeformationState& state,
                           double* gradient,
@@ -261,6 +276,8 @@ class NormalEquations {
 
   std::vector<int> variable_nodes_;
   bool camera_variable_ = false;
+  // Of points alone, and all.
+  int num_dual_points_ = 0;
   int num_dual_ = 0;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
   PointGroups points_;

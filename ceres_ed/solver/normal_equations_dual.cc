@@ -1,4 +1,4 @@
-// Points of NormalEquations that have dual unknowns.
+// Points and wide residuals of NormalEquations that have dual unknowns.
 #include <ceres_ed/solver/normal_equations.h>
 
 #include <algorithm>
@@ -10,6 +10,10 @@ namespace {
 constexpr int kAffineSize = kNodeTranslationOffset;
 // Duals pay where they are fewer than this share of the affine parameters that they keep apart.
 constexpr double kFewDuals = 0.7;
+// A residual on so many nodes and camera parts is wide; its own rows are to be fewer than this
+// share of theirs.
+constexpr int kWideParts = 24;
+constexpr double kFewRows = 0.25;
 // Rounding of moments.
 constexpr double kRankTolerance = 1e-15;
 
@@ -33,7 +37,7 @@ Eigen::Matrix3d SquareRoot(const double* moments) {
 
 }  // namespace
 
-void NormalEquations::ChooseDual() {
+void NormalEquations::ChooseDualPoints() {
   if (camera_variable_) return;
   std::vector<char> coupled(num_variable_nodes(), 0);
   int num_points = 0;
@@ -45,20 +49,75 @@ void NormalEquations::ChooseDual() {
     }
   }
   const auto num_coupled = std::count(coupled.begin(), coupled.end(), 1);
-  if (kDualSize * num_points < kFewDuals * kAffineSize * num_coupled) num_dual_ = num_points;
+  if (kDualSize * num_points < kFewDuals * kAffineSize * num_coupled) {
+    num_dual_points_ = num_dual_ = num_points;
+  }
+}
+
+void NormalEquations::ChooseDualItems() {
+  for (Item& item : items_) {
+    if (item.quadratic != nullptr) continue;
+    const Part* parts = &parts_[item.first_part];
+    const auto num_varying = std::count_if(
+        parts, parts + item.num_parts, [](const Part& part) { return part.block >= 0; });
+    const int num_dual = (item.cost->num_residuals() + kDualSize - 1) / kDualSize;
+    if (num_varying < kWideParts || kDualSize * num_dual > kFewRows * kNodeSize * num_varying) {
+      continue;
+    }
+    item.first_dual = num_dual_;
+    item.num_dual = num_dual;
+    num_dual_ += num_dual;
+  }
+}
+
+void NormalEquations::AddDualItemSlots(const Item& item) {
+  const Part* parts = &parts_[item.first_part];
+  for (int a = 0; a < item.num_parts; ++a) AddSlot(parts[a].block, parts[a].block, true);
+  for (int d = 0; d < item.num_dual; ++d) {
+    for (int a = 0; a < item.num_parts; ++a) {
+      AddSlot(DualBlock(item.first_dual + d), parts[a].block, true);
+    }
+  }
+}
+
+// Dual rows are those of the Jacobian; the last block may have rows of zeros behind them.
+void NormalEquations::SpreadDualItem(const Item& item,
+                                     const double* linearization,
+                                     const Sums& sums) const {
+  const int num_residuals = item.cost->num_residuals();
+  const double* jacobian = linearization + num_residuals;
+  const Part* parts = &parts_[item.first_part];
+  for (int a = 0; a < item.num_parts; ++a) {
+    AccumulateGradient(item, a, item.first_slot + a, linearization, sums);
+  }
+  if (sums.values == nullptr) return;
+  int slot = item.first_slot + item.num_parts;
+  for (int d = 0; d < item.num_dual; ++d) {
+    for (int a = 0; a < item.num_parts; ++a, ++slot) {
+      const Part& part = parts[a];
+      if (part.block < 0) continue;
+      double* values = Values(slot, sums) + part.offset * kDualSize;
+      const int first = d * kDualSize;
+      const int rows = std::min(kDualSize, num_residuals - first);
+      for (int r = 0; r < rows; ++r) {
+        const double* row = jacobian + num_residuals * part.column + (first + r) * part.width;
+        for (int i = 0; i < part.width; ++i) values[i * kDualSize + r] += row[i];
+      }
+    }
+  }
 }
 
 // Behind those of the nodes: of each point, those with its nodes.
 void NormalEquations::AddDualSlots(const PointGroup& group) {
   const int* blocks = &group_blocks_[group.first_node];
   for (int p = 0; p < group.num_points; ++p) {
-    const int dual = num_variable_nodes() + group.first_point + p;
+    const int dual = DualBlock(group.first_point + p);
     for (int a = 0; a < group.num_nodes; ++a) AddSlot(dual, blocks[a], true);
   }
 }
 
 int NormalEquations::DiagonalSlot(int group, int node) const {
-  return group_slots_[group] + (num_dual_ > 0 ? node : node * (node + 1) / 2 + node);
+  return group_slots_[group] + (num_dual_points_ > 0 ? node : node * (node + 1) / 2 + node);
 }
 
 // Dual rows are w_a [v - g_a; 1]^T (x) Q.

@@ -108,22 +108,34 @@ bool NormalEquations::LinearizeItem(const Item& item,
   return true;
 }
 
+// Adds J_a^T r of one part; `slot` is that of its diagonal block.
+void NormalEquations::AccumulateGradient(
+    const Item& item, int part, int slot, const double* linearization, const Sums& sums) const {
+  const Part& part_a = parts_[item.first_part + part];
+  if (part_a.block < 0) return;
+  const int num_residuals = item.cost->num_residuals();
+  const double* residuals = linearization;
+  const double* J_a = linearization + num_residuals * (1 + part_a.column);
+  double* g = Gradient(slot, sums) + part_a.offset;
+  for (int k = 0; k < num_residuals; ++k) {
+    for (int i = 0; i < part_a.width; ++i) g[i] += J_a[k * part_a.width + i] * residuals[k];
+  }
+}
+
 void NormalEquations::AccumulateItem(const Item& item,
                                      const double* linearization,
                                      const Sums& sums) const {
+  if (item.num_dual > 0) {
+    SpreadDualItem(item, linearization, sums);
+    return;
+  }
   const int num_residuals = item.cost->num_residuals();
-  const double* residuals = linearization;
   const double* jacobian = linearization + num_residuals;
   int slot = item.first_slot;
   for (int a = 0; a < item.num_parts; ++a) {
     const Part& part_a = parts_[item.first_part + a];
     const double* J_a = jacobian + num_residuals * part_a.column;
-    if (part_a.block >= 0) {
-      double* g = Gradient(slot + a, sums) + part_a.offset;
-      for (int k = 0; k < num_residuals; ++k) {
-        for (int i = 0; i < part_a.width; ++i) g[i] += J_a[k * part_a.width + i] * residuals[k];
-      }
-    }
+    AccumulateGradient(item, a, slot + a, linearization, sums);
     if (sums.values == nullptr) {
       slot += a + 1;
       continue;

@@ -170,7 +170,7 @@ bool NormalEquations::AddGroup(int index,
   AddGroupGradients(points, &scratch->sums);
   SpreadGradients(index, *scratch, sums);
   if (sums.values == nullptr) return true;
-  if (num_dual_ > 0) {
+  if (num_dual_points_ > 0) {
     SpreadDuals(index, scratch->moments.data(), sums);
     return true;
   }

@@ -38,13 +38,13 @@ void NormalEquations::AddGroupSlots(const PointGroup& group, const DeformationGr
     const int node = points_.nodes(group)[a];
     group_blocks_.push_back(block_of_node_[node]);
     group_positions_.push_back(graph.position(node));
-    if (num_dual_ > 0) {
+    if (num_dual_points_ > 0) {
       AddSlot(group_blocks_.back(), group_blocks_.back(), true);
       continue;
     }
     for (int b = 0; b <= a; ++b) AddSlot(group_blocks_[first + a], group_blocks_[first + b], true);
   }
-  if (num_dual_ > 0) AddDualSlots(group);
+  if (num_dual_points_ > 0) AddDualSlots(group);
   if (!VariesCamera(group)) return;
   for (int a = 0; a < group.num_nodes; ++a) {
     AddSlot(num_variable_nodes(), group_blocks_[first + a], true);
@@ -73,6 +73,10 @@ void NormalEquations::AddSlots(const DeformationGraph& graph) {
   for (Item& item : items_) {
     item.first_slot = static_cast<int>(slots_.size());
     const Part* parts = &parts_[item.first_part];
+    if (item.num_dual > 0) {
+      AddDualItemSlots(item);
+      continue;
+    }
     for (int a = 0; a < item.num_parts; ++a) {
       for (int b = 0; b <= a; ++b) {
         AddSlot(parts[a].block, parts[b].block, parts[a].affine && parts[b].affine);
@@ -83,7 +87,7 @@ void NormalEquations::AddSlots(const DeformationGraph& graph) {
 
 int NormalEquations::NumGroupSlots(const PointGroup& group) const {
   const int n = group.num_nodes;
-  if (num_dual_ > 0) return n * (1 + group.num_points);
+  if (num_dual_points_ > 0) return n * (1 + group.num_points);
   return n * (n + 1) / 2 + (VariesCamera(group) ? n + 1 : 0);
 }
 
@@ -109,7 +113,7 @@ void NormalEquations::DealOut(const DeformationGraph& graph) {
   }
   for (const Edge& edge : edges_) ++work[bin_of(edge.nodes[0])];
   for (const Rotation& rotation : rotations_) ++work[bin_of(rotation.node)];
-  for (const Item& item : items_) work[item_bin(item)] += 1 + item.num_parts * item.num_parts;
+  for (const Item& item : items_) work[item_bin(item)] += 1 + NumItemSlots(item);
   std::int64_t total = 0;
   for (const std::int64_t w : work) total += w;
   const int num_tasks =

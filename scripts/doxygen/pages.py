@@ -8,6 +8,8 @@ import os
 import re
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
+# A folder whose headers are no part of what is installed, and have no pages.
+PRIVATE = "ceres_ed/python/"
 LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 
 
@@ -31,7 +33,7 @@ def target(link, folder):
         if page == "readme" and not anchor:
             return "@ref index"
         return f"@ref {page}{'--' + anchor if anchor else ''}"
-    if path.endswith(".h") and os.path.exists(os.path.join(ROOT, path)):
+    if path.endswith(".h") and not path.startswith(PRIVATE) and os.path.exists(os.path.join(ROOT, path)):
         return f"@ref {path}"
     return None
 

@@ -13,7 +13,7 @@ import shutil
 import sys
 
 from headers import convert_header
-from pages import convert_page, missing_links
+from pages import PRIVATE, convert_page, missing_links
 
 HEADERS = ["ceres_ed/**/*.h", "cost_functions/*.h"]
 PAGES = ["README.md", "apps/examples/README.md", "ceres_ed/**/README.md", "data/README.md"]
@@ -43,6 +43,8 @@ def write(patterns, folder, convert):
     """Writes `convert(text, path)` of every file that the patterns find."""
     for pattern in patterns:
         for path in sorted(glob.glob(pattern, recursive=True)):
+            if path.startswith(PRIVATE) and path.endswith(".h"):
+                continue
             with open(path, encoding="utf-8") as file:
                 text = convert(file.read(), path)
             os.makedirs(os.path.dirname(os.path.join(folder, path)), exist_ok=True)

@@ -44,5 +44,30 @@ TEST(Image, IsBlackToBeginWith) {
   EXPECT_EQ(ColorImage(2, 2)(1, 1), (std::array<std::uint8_t, 3>{0, 0, 0}));
 }
 
+TEST(ImageView, LooksAtAnImage) {
+  Image<int> image(3, 2);
+  const ImageView<int> view = image;
+  image(2, 1) = 5;
+  EXPECT_EQ(view.width(), 3);
+  EXPECT_EQ(view.height(), 2);
+  EXPECT_EQ(view.pixels(), image.pixels().data());
+  EXPECT_EQ(&view(2, 1), &image(2, 1));
+  EXPECT_EQ(ImageView<int>(&image).pixels(), view.pixels());
+}
+
+TEST(ImageView, LooksAtPixelsOfOthers) {
+  const float pixels[] = {0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
+  const DepthView view(pixels, 2, 3);
+  EXPECT_FALSE(view.empty());
+  EXPECT_EQ(view(1, 0), 1.0F);
+  EXPECT_EQ(view(0, 2), 4.0F);
+}
+
+TEST(ImageView, MayHaveNoPixels) {
+  EXPECT_TRUE(DepthView().empty());
+  EXPECT_TRUE(DepthView(nullptr).empty());
+  EXPECT_TRUE(DepthView(DepthImage(0, 5)).empty());
+}
+
 }  // namespace
 }  // namespace ceres_ed

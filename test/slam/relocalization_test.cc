@@ -17,7 +17,7 @@ std::unique_ptr<DeformableSlam> MappedKidney() {
 }
 
 ObservedSurface SurfaceOf(const DeformableSlam& slam, int frame) {
-  return ObservedSurface(*KidneySequence().Frame(frame).depth,
+  return ObservedSurface(KidneySequence().Frame(frame).depth,
                          KidneySequence().camera,
                          1.0 / slam.unit(),
                          ObservedSurfaceOptions());
@@ -78,10 +78,10 @@ TEST(Relocalization, TracksOnAfterAJump) {
   const auto slam = MappedKidney();
   // The picture is turned half way round: no prediction leads there.
   const SlamFrame frame = KidneySequence().Frame(3);
-  DepthImage turned(frame.depth->width(), frame.depth->height());
+  DepthImage turned(frame.depth.width(), frame.depth.height());
   for (int v = 0; v < turned.height(); ++v) {
     for (int u = 0; u < turned.width(); ++u) {
-      turned(u, v) = (*frame.depth)(turned.width() - 1 - u, turned.height() - 1 - v);
+      turned(u, v) = frame.depth(turned.width() - 1 - u, turned.height() - 1 - v);
     }
   }
   SlamFrame jumped = frame;

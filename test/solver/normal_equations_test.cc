@@ -92,7 +92,7 @@ struct DualEquations {
   DualEquations() : problem(MakeTestProblem(Options())), builder(MakeBuilder(problem, kHuber)) {
     config = FullConfig(problem.graph.num_nodes(), false);
     state = RandomState(problem, 0.1, 5);
-    equations.Build(*builder, config, DualPoints::kWhereFew);
+    equations.Build(*builder, config, DualResiduals::kWhereTheyPay);
     structure = std::make_unique<BlockStructure>(
         equations.BlockSizes(), equations.BlockPairs(), equations.num_dual());
     EXPECT_TRUE(equations.SetStructure(structure.get()));

@@ -1,0 +1,134 @@
+// Surfaces in memory and in PLY files.
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/python/arrays.h>
+#include <ceres_ed/python/bindings.h>
+#include <ceres_ed/python/errors.h>
+#include <ceres_ed/python/surfaces.h>
+
+#include <utility>
+
+#include <pybind11/stl.h>
+
+namespace ceres_ed::python {
+namespace {
+
+Cloud MakeCloud(const py::object& points, const py::object& triangles, const py::object& normals) {
+  Cloud cloud;
+  cloud.cloud = SurfaceArgument(points, "points").Take();
+  if (!IsNone(triangles)) {
+    cloud.cloud.triangles = ToTriangles(triangles, cloud.cloud.size(), "triangles");
+  }
+  if (!IsNone(normals)) cloud.cloud.normals = ToNormals(normals, cloud.cloud.size(), "normals");
+  return cloud;
+}
+
+Cloud Load(const py::object& path_object) {
+  const std::string path = ToPath(path_object);
+  CheckReadable(path);
+  const auto load = [&path] {
+    const py::gil_scoped_release release;
+    return LoadCloud(path);
+  };
+  LoadedCloud loaded = ValueOrThrow(load());
+  Cloud cloud;
+  cloud.cloud = std::move(loaded.cloud);
+  loaded.cloud = PointCloud();
+  cloud.file = std::make_unique<LoadedCloud>(std::move(loaded));
+  return cloud;
+}
+
+Status Write(const std::string& path,
+             const PointCloud& surface,
+             const Cloud* like,
+             bool double_precision) {
+  const py::gil_scoped_release release;
+  if (like == nullptr || like->file == nullptr) {
+    CloudWriteOptions options;
+    options.double_precision = double_precision;
+    return WriteCloud(path, surface, options);
+  }
+  const std::vector<Eigen::Vector3d>* normals = surface.HasNormals() ? &surface.normals : nullptr;
+  const LoadedCloud& file = *like->file;
+  return SaveCloud(path, file.document, file.vertex_of_point, surface.points, normals);
+}
+
+void Save(const py::object& path,
+          const py::object& surface_object,
+          const Cloud* like,
+          bool double_precision) {
+  const SurfaceArgument surface(surface_object, "the surface");
+  if (like == nullptr && py::isinstance<Cloud>(surface_object)) {
+    like = &surface_object.cast<const Cloud&>();
+  }
+  if (like != nullptr && like->cloud.size() != (*surface).size()) {
+    throw py::value_error("the surface has " + std::to_string((*surface).size()) +
+                          " points, expected as many as `like`, " +
+                          std::to_string(like->cloud.size()));
+  }
+  ThrowUnlessWritten(Write(ToPath(path), *surface, like, double_precision));
+}
+
+std::string Describe(const Cloud& cloud) {
+  return "<ceres_ed.Cloud of " + std::to_string(cloud.cloud.size()) + " points, " +
+         std::to_string(cloud.cloud.triangles.size()) + " triangles>";
+}
+
+}  // namespace
+
+void BindCloud(py::module_& module) {
+  py::class_<Cloud>(module, "Cloud", R"(Points with optional triangles and normals.
+
+Wherever a surface is asked for, these will do, too: an (N, 3) array of points, a pair (points,
+triangles), a mesh or cloud of trimesh or Open3D, a FitResult. Lengths are in the unit of the input.)")
+      .def(py::init(&MakeCloud),
+           py::arg("points"),
+           py::arg("triangles") = py::none(),
+           py::arg("normals") = py::none(),
+           R"(Copies `points` (N, 3) or any other surface, `triangles` (M, 3), `normals` (N, 3).
+
+Normals are brought to unit length. ValueError on other shapes, on coordinates that are not finite,
+and on triangles that name points that are not there.)")
+      .def_property_readonly(
+          "points",
+          [](const py::object& self) { return View(self.cast<Cloud&>().cloud.points, self); },
+          "(N, 3) float64, a view.")
+      .def_property_readonly(
+          "triangles",
+          [](const py::object& self) {
+            return ViewOrNone(self.cast<Cloud&>().cloud.triangles, self);
+          },
+          "(M, 3) int32, a view; None of bare points.")
+      .def_property_readonly(
+          "normals",
+          [](const py::object& self) {
+            return ViewOrNone(self.cast<Cloud&>().cloud.normals, self);
+          },
+          "(N, 3) float64 of unit length, a view; None where there are none.")
+      .def_property_readonly(
+          "warnings",
+          [](const Cloud& self) {
+            return self.file == nullptr ? std::vector<std::string>() : self.file->warnings;
+          },
+          "A sentence for each kind of thing that was left out of the file.")
+      .def("__len__", [](const Cloud& self) { return self.cloud.size(); })
+      .def("__repr__", &Describe);
+
+  module.def("load", &Load, py::arg("path"), R"(Returns the Cloud of a PLY file.
+
+OSError where it can't be read; ValueError, naming file, place and what was expected, where it is no
+such file.)");
+  module.def("save",
+             &Save,
+             py::arg("path"),
+             py::arg("surface"),
+             py::kw_only(),
+             py::arg("like") = nullptr,
+             py::arg("double_precision") = false,
+             R"(Writes `surface` as a PLY; the file appears whole or not at all.
+
+Of a Cloud that was loaded, or with `like`, such a Cloud of as many points, everything else of its
+file is kept: order, faces, colours, every extra property, types. OSError where it can't be
+written.)");
+}
+
+}  // namespace ceres_ed::python

@@ -1,0 +1,94 @@
+// How good a fit is.
+#include <ceres_ed/python/bindings.h>
+#include <ceres_ed/python/errors.h>
+#include <ceres_ed/python/surfaces.h>
+#include <ceres_ed/registration/evaluation.h>
+
+#include <optional>
+
+#include <pybind11/stl.h>
+
+namespace ceres_ed::python {
+namespace {
+
+namespace py = pybind11;
+
+Evaluation EvaluateSurfaces(const py::object& result_object,
+                            const py::object& target_object,
+                            const py::object& truth_object,
+                            const py::object& source_object) {
+  const SurfaceArgument result(result_object, "result");
+  const SurfaceArgument target(target_object, "target");
+  std::optional<SurfaceArgument> truth, source;
+  if (!truth_object.is_none()) truth.emplace(truth_object, "truth");
+  if (!source_object.is_none()) source.emplace(source_object, "source");
+  const PointCloud* from = source ? &**source : nullptr;
+  if (from == nullptr && py::isinstance<FittedSurface>(result_object)) {
+    from = &result_object.cast<const FittedSurface&>().input.source;
+  }
+  const auto evaluate = [&] {
+    const py::gil_scoped_release release;
+    return Evaluate(*result, *target, from, truth ? &**truth : nullptr);
+  };
+  return ValueOrThrow(evaluate());
+}
+
+void BindStatistics(py::module_& module) {
+  using S = DistanceStatistics;
+  py::class_<S>(module, "DistanceStatistics", "Figures of a set of distances, input's unit.")
+      .def_readonly("mean", &S::mean)
+      .def_readonly("rms", &S::rms)
+      .def_readonly("p50", &S::p50, "The median.")
+      .def_readonly("p95", &S::p95)
+      .def_readonly("max", &S::max)
+      .def_readonly("trimmed", &S::trimmed, "Mean of the smallest 80 %.")
+      .def(
+          "in_percent_of", &S::InPercentOf, py::arg("diagonal"), "The same in percent of a length.")
+      .def("__repr__", [](const S& self) {
+        return "<ceres_ed.DistanceStatistics mean " + std::to_string(self.mean) + ", p95 " +
+               std::to_string(self.p95) + ", max " + std::to_string(self.max) + ">";
+      });
+  using C = ShapeChange;
+  py::class_<C>(module, "ShapeChange", "What became of the source's edges and triangles.")
+      .def_readonly("edge_mean", &C::edge_mean, "Of |l' / l - 1| over all edges, no unit.")
+      .def_readonly("edge_p95", &C::edge_p95)
+      .def_readonly("edge_p99", &C::edge_p99)
+      .def_readonly("edges", &C::edges, "How many.")
+      .def_readonly("flipped", &C::flipped, "Triangles that turned over.")
+      .def_readonly("degenerate", &C::degenerate, "Triangles with less than 5 % of their area.");
+}
+
+}  // namespace
+
+void BindEvaluate(py::module_& module) {
+  BindStatistics(module);
+  using E = Evaluation;
+  py::class_<E>(module, "Evaluation", "What evaluate() measures. Lengths in the input's unit.")
+      .def_readonly("diagonal", &E::diagonal, "Of the target's bounding box.")
+      .def_readonly("forward", &E::forward, "Result's points to the target's surface.")
+      .def_readonly("backward", &E::backward, "Target's points to the result's surface.")
+      .def_readonly("symmetric", &E::symmetric, "The average of both.")
+      .def_readonly("nearest_forward", &E::nearest_forward, "Result's to the target's points.")
+      .def_readonly("nearest_backward", &E::nearest_backward, "Target's to the result's points.")
+      .def_readonly("point_to_plane",
+                    &E::point_to_plane,
+                    "Mean distance to the planes of the nearest points; None without normals.")
+      .def_readonly("normal_error_deg",
+                    &E::normal_error_deg,
+                    "Mean angle to the normals there, degrees; None without normals.")
+      .def_readonly("truth", &E::truth, "To each point's true place; None without a truth.")
+      .def_readonly("shape", &E::shape, "A ShapeChange; None without a source.");
+  module.def("evaluate",
+             &EvaluateSurfaces,
+             py::arg("result"),
+             py::arg("target"),
+             py::arg("truth") = py::none(),
+             py::arg("source") = py::none(),
+             R"(Returns the Evaluation of `result` against `target`.
+
+All are surfaces (see Cloud). `truth` has the true places of the result's points, and `source` (of a
+FitResult its own, unless given) where they came from, in the same order. ValueError on a surface
+without points and on unequal counts.)");
+}
+
+}  // namespace ceres_ed::python

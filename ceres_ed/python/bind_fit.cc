@@ -1,0 +1,307 @@
+// fit() and what it returns.
+#include <ceres_ed/python/arrays.h>
+#include <ceres_ed/python/bindings.h>
+#include <ceres_ed/python/callbacks.h>
+#include <ceres_ed/python/energies.h>
+#include <ceres_ed/python/errors.h>
+#include <ceres_ed/python/graphs.h>
+#include <ceres_ed/python/memory.h>
+#include <ceres_ed/python/options.h>
+#include <ceres_ed/python/surfaces.h>
+#include <ceres_ed/registration/fit.h>
+
+#include <utility>
+
+#include <pybind11/stl.h>
+
+namespace ceres_ed::python {
+namespace {
+
+// From {source point: (x, y, z)}, or a pair (source points, positions).
+std::vector<PointConstraint> ToLandmarks(const py::object& object) {
+  std::vector<PointConstraint> landmarks;
+  if (object.is_none()) return landmarks;
+  py::object indices, positions;
+  if (py::isinstance<py::dict>(object)) {
+    indices = py::list(object.attr("keys")());
+    positions = py::list(object.attr("values")());
+  } else if (py::isinstance<py::tuple>(object) && py::len(object) == 2) {
+    indices = py::tuple(object)[0];
+    positions = py::tuple(object)[1];
+  } else {
+    throw py::type_error(
+        "landmarks: expected {source point: (x, y, z)} or a pair "
+        "(source points (N,), positions (N, 3))");
+  }
+  const std::vector<int> points = ToIndices(indices, "landmarks' source points");
+  if (points.empty()) return landmarks;
+  const std::vector<Eigen::Vector3d> places = ToPoints(positions, "landmarks' positions");
+  if (places.size() != points.size()) {
+    throw py::value_error("landmarks: " + std::to_string(points.size()) + " source points and " +
+                          std::to_string(places.size()) + " positions, expected as many");
+  }
+  for (std::size_t i = 0; i < points.size(); ++i) landmarks.push_back({points[i], places[i]});
+  return landmarks;
+}
+
+StatusOr<FitResult> FitWithoutLock(const FitInput& input,
+                                   FitOptions options,
+                                   const EnergyRegistry& registry,
+                                   const py::object& progress,
+                                   Callbacks* callbacks) {
+  options.should_stop = [callbacks] { return callbacks->ShouldStop(); };
+  if (!progress.is_none()) {
+    options.on_progress = [callbacks, &progress](const FitProgress& state) {
+      callbacks->Call([&] { progress(state); });
+    };
+  }
+  const py::gil_scoped_release release;
+  return Fit(input, options, registry);
+}
+
+std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
+                                           const py::object& target,
+                                           const py::object& landmarks,
+                                           const py::object& fixed,
+                                           const py::object& energies,
+                                           const py::object& plugin,
+                                           const FitOptions* options,
+                                           const py::object& progress,
+                                           const py::object& should_stop,
+                                           const py::kwargs& changes) {
+  auto fitted = std::make_unique<FittedSurface>();
+  FitInput& input = fitted->input;
+  input.source = SurfaceArgument(source, "source").Take();
+  if (!target.is_none()) input.target = SurfaceArgument(target, "target").Take();
+  input.landmarks = ToLandmarks(landmarks);
+  if (!fixed.is_none()) input.fixed_points = ToIndices(fixed, "fixed");
+  FitOptions changed = options != nullptr ? *options : FitOptions();
+  OptionsClass<FitOptions>::Apply("fit", changes, &changed);
+  changed.extra_energies = ToEnergies(energies);
+  const EnergyRegistry registry = MakeRegistry(plugin);
+  ExpectLargeBlocks();
+  Callbacks callbacks(should_stop);
+  StatusOr<FitResult> result = FitWithoutLock(input, changed, registry, progress, &callbacks);
+  callbacks.Rethrow();
+  fitted->result = ValueOrThrow(std::move(result));
+  if (!fitted->result.IsUsable()) throw std::runtime_error(fitted->result.message);
+  // Nothing of the target is asked for again.
+  input.target = PointCloud();
+  return fitted;
+}
+
+py::dict Times(const FittedSurface& self) {
+  const FitTimes& times = self.result.times;
+  py::dict seconds;
+  seconds["rigid"] = times.rigid;
+  seconds["prepare"] = times.prepare;
+  seconds["graph"] = times.graph;
+  seconds["associate"] = times.associate;
+  seconds["build"] = times.build;
+  seconds["solve"] = times.solve;
+  seconds["level1"] = times.level1;
+  seconds["level2"] = times.level2;
+  seconds["finish"] = times.finish;
+  return seconds;
+}
+
+py::list Terms(const FittedSurface& self) {
+  py::list terms;
+  for (const TermEnergy& term : self.result.final_energy.terms) {
+    py::dict entry;
+    entry["name"] = term.label;
+    entry["weighted"] = term.weighted;
+    entry["raw"] = term.raw;
+    entry["residuals"] = term.residuals;
+    terms.append(entry);
+  }
+  return terms;
+}
+
+Graph GraphOf(const FittedSurface& self) {
+  Graph graph;
+  graph.graph = self.result.warp.graph;
+  graph.binding = self.result.warp.binding;
+  return graph;
+}
+
+py::array PointRelevant(const py::object& self) {
+  std::vector<char>& flags = self.cast<FittedSurface&>().result.point_relevant;
+  return ReadOnly(py::array(py::dtype("?"), flags.size(), flags.data(), self));
+}
+
+using ResultClass = py::class_<FittedSurface>;
+
+// A number of the result, with its text.
+template <typename Get>
+void AddNumber(ResultClass* result, const char* name, Get get, const char* doc) {
+  result->def_property_readonly(
+      name, [get](const FittedSurface& self) { return get(self.result); }, doc);
+}
+
+void BindArrays(ResultClass* result) {
+  result
+      ->def_property_readonly(
+          "points",
+          [](const py::object& self) {
+            return View(self.cast<FittedSurface&>().result.points, self);
+          },
+          "(N, 3) float64, the source in the target's frame and unit; a view.")
+      .def_property_readonly(
+          "normals",
+          [](const py::object& self) {
+            return ViewOrNone(self.cast<FittedSurface&>().result.normals, self);
+          },
+          "(N, 3) float64 of the fitted source, a view; None where the source has none.")
+      .def_property_readonly(
+          "triangles",
+          [](const py::object& self) {
+            return ViewOrNone(self.cast<FittedSurface&>().input.source.triangles, self);
+          },
+          "(M, 3) int32 of the source, a view; None of bare points.")
+      .def_property_readonly(
+          "warp",
+          [](FittedSurface& self) -> Warp& { return self.result.warp; },
+          py::return_value_policy::reference_internal,
+          "The Warp that takes any cloud of the source's frame to the target's.")
+      .def_property_readonly("graph", &GraphOf, "The Graph, source frame and unit.")
+      .def_property_readonly(
+          "rigid",
+          [](const FittedSurface& self) { return ToMatrix(self.result.rigid); },
+          "(4, 4) [s R, T; 0 0 0 1], target from source: where the source stood before it bent.")
+      .def_property_readonly(
+          "point_relevant", &PointRelevant, "(nodes,) bool: nodes that an observation touched.");
+}
+
+void BindNumbers(ResultClass* result) {
+  using R = FitResult;
+  result->def_property_readonly(
+      "status",
+      [](const FittedSurface& self) { return SolveStatusName(self.result.status); },
+      "'converged', 'max_iterations', 'time_limit' or 'interrupted'; of the last two `points` are "
+      "the best so far.");
+  AddNumber(
+      result, "message", [](const R& r) { return r.message; }, "How it ended.");
+  AddNumber(
+      result,
+      "inliers",
+      [](const R& r) { return r.matches.inliers; },
+      "Matches of the last round that were believed.");
+  AddNumber(
+      result,
+      "rms_point_to_plane",
+      [](const R& r) { return r.matches.rms_plane; },
+      "Of the matches, target unit.");
+  AddNumber(
+      result,
+      "rms_point_to_point",
+      [](const R& r) { return r.matches.rms_point; },
+      "Of the matches, target unit.");
+  AddNumber(
+      result,
+      "initial_energy",
+      [](const R& r) { return r.initial_energy.Total(); },
+      "The objective at the start of the last round, no unit.");
+  AddNumber(
+      result,
+      "final_energy",
+      [](const R& r) { return r.final_energy.Total(); },
+      "The objective at the end, no unit.");
+  result->def_property_readonly(
+      "terms", &Terms, "Of final_energy, a dict for each energy: name, weighted, raw, residuals.");
+  AddNumber(
+      result,
+      "outer_iterations",
+      [](const R& r) { return r.outer_iterations; },
+      "Rounds of matching and solving.");
+  AddNumber(
+      result,
+      "solver_iterations",
+      [](const R& r) { return r.solver_iterations; },
+      "Iterations of the solver in all of them.");
+  AddNumber(
+      result,
+      "max_fixed_error",
+      [](const R& r) { return r.max_fixed_error; },
+      "Largest distance of a fixed point from its place, target unit.");
+  AddNumber(
+      result,
+      "rigid_only",
+      [](const R& r) { return r.rigid_only; },
+      "Whether the deformation explained less than the rigid motion, and was left out.");
+  AddNumber(
+      result,
+      "noise",
+      [](const R& r) { return r.noise; },
+      "Standard deviation of the target's noise, in its unit.");
+  AddNumber(
+      result,
+      "unfolded",
+      [](const R& r) { return r.unfolded; },
+      "Faces that were folded over and were laid flat in the end.");
+  AddNumber(
+      result, "warnings", [](const R& r) { return r.warnings; }, "A sentence each.");
+  result->def_property_readonly("times", &Times, "Seconds by stage.");
+  result->def("__len__", [](const FittedSurface& self) { return self.result.points.size(); });
+  result->def("__repr__", [](const FittedSurface& self) {
+    return "<ceres_ed.FitResult of " + std::to_string(self.result.points.size()) + " points, " +
+           std::to_string(self.result.warp.graph.num_nodes()) +
+           " nodes: " + SolveStatusName(self.result.status) + ">";
+  });
+}
+
+void BindProgress(py::module_& module) {
+  py::class_<FitProgress>(module, "FitProgress", "How far a fit is.")
+      .def_readonly("stage", &FitProgress::stage, "'rigid' or 'fit'.")
+      .def_readonly("fraction", &FitProgress::fraction, "In [0, 1].")
+      .def_readonly("inliers", &FitProgress::inliers, "Matches that are believed.")
+      .def_readonly("rms_plane", &FitProgress::rms_plane, "Of the inliers, target unit.")
+      .def_readonly("energy", &FitProgress::energy, "No unit.");
+}
+
+}  // namespace
+
+void BindFit(py::module_& module) {
+  BindProgress(module);
+  ResultClass result(module, "FitResult", R"(What a fit found.
+
+Arrays of points are views of the result's own memory and keep it alive.)");
+  BindArrays(&result);
+  BindNumbers(&result);
+  module.def("fit",
+             &FitSurfaces,
+             py::arg("source"),
+             py::arg("target") = py::none(),
+             py::kw_only(),
+             py::arg("landmarks") = py::none(),
+             py::arg("fixed") = py::none(),
+             py::arg("energies") = py::none(),
+             py::arg("plugin") = py::none(),
+             py::arg("options") = nullptr,
+             py::arg("progress") = py::none(),
+             py::arg("should_stop") = py::none(),
+             R"(Deforms `source` until it lies on `target`, or its landmarks where they belong.
+
+Other Python threads run meanwhile; Ctrl-C, and an exception in `progress` or `should_stop`, end the
+fit and are raised. The result doesn't depend on the number of threads.
+
+Args:
+  source, target: any surface (see Cloud), in the same unit. Without a target: landmarks alone.
+  landmarks: {source point: (x, y, z)}, or a pair (source points (N,), positions (N, 3)): where
+    points go, in the target's frame.
+  fixed: (N,) source points that stay where they are; there is no rigid motion then.
+  energies: more energies: a str as of ed_fit --energy ('floor:weight=1e4,height=-0.1;...'), an
+    Energy, or a list of both.
+  plugin: path of a shared object with more energies, or a list of them.
+  options: a FitOptions; its options are also keywords of their own, which come first.
+  progress: called with a FitProgress after each round.
+  should_stop: asked often, without arguments; True ends the fit with the best so far.
+
+Returns: a FitResult.
+Raises:
+  ValueError: an input, option or energy that can't be used; says what was expected.
+  OSError: a plugin that can't be read.
+  RuntimeError: nothing usable was found.)");
+}
+
+}  // namespace ceres_ed::python

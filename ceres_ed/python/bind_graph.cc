@@ -1,0 +1,216 @@
+// Deformation graphs: built on a surface, or from nodes and edges.
+#include <ceres_ed/graph/graph_builder.h>
+#include <ceres_ed/python/arrays.h>
+#include <ceres_ed/python/bindings.h>
+#include <ceres_ed/python/errors.h>
+#include <ceres_ed/python/graphs.h>
+#include <ceres_ed/python/options.h>
+#include <ceres_ed/python/surfaces.h>
+
+#include <algorithm>
+#include <utility>
+
+#include <pybind11/stl.h>
+
+namespace ceres_ed::python {
+namespace {
+
+constexpr Choice<SamplingRule> kSamplings[] = {{"uniform", SamplingRule::kUniform},
+                                               {"farthest", SamplingRule::kFarthest}};
+constexpr Choice<DistanceRule> kDistances[] = {{"surface", DistanceRule::kSurface},
+                                               {"euclidean", DistanceRule::kEuclidean}};
+constexpr Choice<EdgeRule> kEdges[] = {{"shared_influence", EdgeRule::kSharedInfluence},
+                                       {"nearest", EdgeRule::kNearest}};
+
+void AddEdges(const py::object& edges, const py::object& weights, DeformationGraph* graph) {
+  if (IsNone(edges)) return;
+  const auto pairs = py::array::ensure(edges);
+  if (!pairs || pairs.ndim() != 2 || pairs.shape(1) != 2) {
+    throw py::value_error("edges: expected (E, 2) node indices");
+  }
+  const std::vector<int> ends = ToIndices(pairs.attr("ravel")(), "edges");
+  const std::size_t count = ends.size() / 2;
+  std::vector<double> alpha(count, 1.0);
+  if (!IsNone(weights)) {
+    const auto given = Doubles(weights, "edge_weights");
+    if (given.ndim() != 1 || static_cast<std::size_t>(given.size()) != count) {
+      throw py::value_error("edge_weights: expected one for each of " + std::to_string(count) +
+                            " edges");
+    }
+    std::copy_n(given.data(), count, alpha.begin());
+  }
+  for (std::size_t e = 0; e < count; ++e) {
+    const GraphEdge edge = {ends[2 * e], ends[2 * e + 1], alpha[e]};
+    if (std::max(edge.from, edge.to) >= graph->num_nodes() || edge.from == edge.to) {
+      throw py::value_error("edge " + std::to_string(e) + " joins nodes " +
+                            std::to_string(edge.from) + " and " + std::to_string(edge.to) +
+                            ", expected two of " + std::to_string(graph->num_nodes()));
+    }
+    if (!(edge.weight >= 0.0)) {
+      throw py::value_error("edge " + std::to_string(e) + " weighs " + std::to_string(edge.weight) +
+                            ", expected >= 0");
+    }
+    graph->AddEdge(edge);
+  }
+}
+
+Graph MakeGraph(const py::object& nodes, const py::object& edges, const py::object& edge_weights) {
+  Graph graph;
+  for (const Eigen::Vector3d& node : ToPoints(nodes, "nodes")) graph.graph.AddNode(node);
+  AddEdges(edges, edge_weights, &graph.graph);
+  return graph;
+}
+
+Graph Build(const py::object& surface_object,
+            const GraphOptions* options,
+            const py::kwargs& changes) {
+  const SurfaceArgument surface(surface_object, "the surface");
+  GraphOptions changed = options != nullptr ? *options : GraphOptions();
+  OptionsClass<GraphOptions>::Apply("Graph.build", changes, &changed);
+  const auto build = [&] {
+    const py::gil_scoped_release release;
+    return BuildGraph(*surface, changed);
+  };
+  BuiltGraph built = ValueOrThrow(build());
+  Graph graph;
+  graph.graph = std::move(built.graph);
+  graph.binding = built.binding;
+  graph.node_points = std::move(built.node_points);
+  graph.node_spacing = built.node_spacing;
+  graph.warnings = std::move(built.warnings);
+  return graph;
+}
+
+void BindOptions(py::module_& module) {
+  using O = GraphOptions;
+  OptionsClass<O>(module, "GraphOptions", "How a graph is built. Lengths in the surface's unit.")
+      .Add(
+          "node_spacing",
+          [](O & o) -> auto& { return o.node_spacing; },
+          "Distance between nodes, >= 0; 0: from target_nodes.")
+      .Add(
+          "target_nodes",
+          [](O & o) -> auto& { return o.target_nodes; },
+          "Nodes wanted where node_spacing is 0, >= 0; 0: from auto_spacing.")
+      .Add(
+          "auto_spacing",
+          [](O & o) -> auto& { return o.auto_spacing; },
+          "Distance between nodes as a fraction of the bounding box's diagonal, > 0.")
+      .Add(
+          "neighbors",
+          [](O & o) -> auto& { return o.neighbors; },
+          "Nodes that carry a point, 1 to 8.")
+      .Add(
+          "sampling",
+          [](O & o) -> auto& { return o.sampling; },
+          kSamplings,
+          "'uniform', or 'farthest': more even, slower.")
+      .Add(
+          "distance",
+          [](O & o) -> auto& { return o.distance; },
+          kDistances,
+          "'surface': along the triangles; 'euclidean'.")
+      .Add(
+          "edges",
+          [](O & o) -> auto& { return o.edges; },
+          kEdges,
+          "'shared_influence': between nodes that carry the same points; 'nearest'.")
+      .Add(
+          "edges_per_node",
+          [](O & o) -> auto& { return o.edges_per_node; },
+          "Partners that a node keeps, >= 1.")
+      .Add(
+          "min_component_points",
+          [](O & o) -> auto& { return o.min_component_points; },
+          "Smaller parts of a mesh get no node of their own, >= 1.")
+      .Add(
+          "join_pieces",
+          [](O & o) -> auto& { return o.join_pieces; },
+          "Join the graph's pieces, so that none is left behind.")
+      .Add(
+          "threads",
+          [](O & o) -> auto& { return o.num_threads; },
+          "Changes the time, not the result, >= 1.");
+}
+
+}  // namespace
+
+py::array Nodes(const DeformationGraph& graph) {
+  const auto& positions = graph.positions();
+  return ReadOnly(OwnedView(std::vector<Eigen::Vector3d>(positions.begin(), positions.end())));
+}
+
+py::array Edges(const DeformationGraph& graph) {
+  std::vector<std::array<int, 2>> edges;
+  for (const GraphEdge& edge : graph.edges()) edges.push_back({edge.from, edge.to});
+  const auto [kept, owner] = Keep(std::move(edges));
+  return ReadOnly(View(reinterpret_cast<int*>(kept->data()), kept->size(), 2, owner));
+}
+
+py::array EdgeWeights(const DeformationGraph& graph) {
+  py::array_t<double> weights(graph.num_edges());
+  double* weight = weights.mutable_data();
+  for (const GraphEdge& edge : graph.edges()) *weight++ = edge.weight;
+  return ReadOnly(std::move(weights));
+}
+
+BindingOptions ToBinding(int neighbors, const std::string& distance) {
+  BindingOptions binding;
+  binding.neighbors = neighbors;
+  if (distance != "surface" && distance != "euclidean") {
+    throw py::value_error("distance is '" + distance + "', expected 'surface' or 'euclidean'");
+  }
+  binding.distance = distance == "surface" ? DistanceRule::kSurface : DistanceRule::kEuclidean;
+  std::string error;
+  if (!binding.IsValid(&error)) throw py::value_error(error);
+  return binding;
+}
+
+std::string DistanceName(DistanceRule rule) {
+  return rule == DistanceRule::kSurface ? "surface" : "euclidean";
+}
+
+void BindGraph(py::module_& module) {
+  BindOptions(module);
+  py::class_<Graph>(module, "Graph", R"(Nodes of a deformation graph and the edges between them.
+
+Arrays are copies to look at (the library keeps nodes where growing never moves them), of a few
+hundred rows.)")
+      .def(
+          py::init(&MakeGraph),
+          py::arg("nodes"),
+          py::arg("edges") = py::none(),
+          py::arg("edge_weights") = py::none(),
+          R"(From `nodes` (N, 3), directed `edges` (E, 2) and their weights (E,), >= 0 (1 where None).)")
+      .def_static("build",
+                  &Build,
+                  py::arg("surface"),
+                  py::arg("options") = nullptr,
+                  R"(Returns the graph of a surface.
+
+Options are those of GraphOptions, by keyword, on top of `options`. ValueError on bad ones, and on a
+surface without points or extent.)")
+      .def_property_readonly(
+          "nodes", [](const Graph& self) { return Nodes(self.graph); }, "(N, 3) at rest.")
+      .def_property_readonly(
+          "edges",
+          [](const Graph& self) { return Edges(self.graph); },
+          "(E, 2) int32: node j predicts where node k goes (Eq. 6).")
+      .def_property_readonly(
+          "edge_weights",
+          [](const Graph& self) { return EdgeWeights(self.graph); },
+          "(E,) alpha_jk, no unit.")
+      .def_property_readonly(
+          "node_points",
+          [](const Graph& self) { return self.node_points; },
+          "The point of the surface that each node sits on; empty unless built on one.")
+      .def_readonly("node_spacing", &Graph::node_spacing, "Unit of the points; 0: not known.")
+      .def_readonly("warnings", &Graph::warnings)
+      .def("__len__", [](const Graph& self) { return self.graph.num_nodes(); })
+      .def("__repr__", [](const Graph& self) {
+        return "<ceres_ed.Graph of " + std::to_string(self.graph.num_nodes()) + " nodes, " +
+               std::to_string(self.graph.num_edges()) + " edges>";
+      });
+}
+
+}  // namespace ceres_ed::python

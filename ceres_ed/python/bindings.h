@@ -1,0 +1,21 @@
+// The parts of the module, each in the file of its name.
+#ifndef CERES_ED_PYTHON_BINDINGS_H_
+#define CERES_ED_PYTHON_BINDINGS_H_
+
+#include <pybind11/pybind11.h>
+
+namespace ceres_ed::python {
+
+void BindCloud(pybind11::module_& module);
+void BindEnergies(pybind11::module_& module);
+void BindGraph(pybind11::module_& module);
+void BindWarp(pybind11::module_& module);
+void BindFitOptions(pybind11::module_& module);
+void BindFit(pybind11::module_& module);
+void BindEvaluate(pybind11::module_& module);
+void BindTrackerOptions(pybind11::module_& module);
+void BindTracker(pybind11::module_& module);
+
+}  // namespace ceres_ed::python
+
+#endif  // CERES_ED_PYTHON_BINDINGS_H_

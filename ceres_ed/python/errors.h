@@ -1,0 +1,35 @@
+// What the library says of bad input, as exceptions.
+#ifndef CERES_ED_PYTHON_ERRORS_H_
+#define CERES_ED_PYTHON_ERRORS_H_
+
+#include <ceres_ed/util/status.h>
+
+#include <string>
+#include <utility>
+
+#include <pybind11/pybind11.h>
+
+namespace ceres_ed::python {
+
+// ValueError with the library's sentence.
+inline void ThrowUnlessOk(const Status& status) {
+  if (!status.ok()) throw pybind11::value_error(status.message());
+}
+template <typename T>
+T ValueOrThrow(StatusOr<T> value) {
+  ThrowUnlessOk(value.status());
+  return *std::move(value);
+}
+
+// OSError of the right kind (FileNotFoundError, PermissionError ...) unless `path` can be read.
+void CheckReadable(const std::string& path);
+
+// OSError with the library's sentence: a file that could not be written.
+void ThrowUnlessWritten(const Status& status);
+
+// A path from str or os.PathLike.
+std::string ToPath(const pybind11::object& path);
+
+}  // namespace ceres_ed::python
+
+#endif  // CERES_ED_PYTHON_ERRORS_H_

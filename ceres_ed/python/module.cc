@@ -1,0 +1,36 @@
+// The module ceres_ed._core: all that `import ceres_ed` gives.
+#include <ceres_ed/python/bindings.h>
+#include <ceres_ed/solver/linear_algebra_backend.h>
+#include <ceres_ed/version.h>
+
+#include <pybind11/pybind11.h>
+
+namespace py = pybind11;
+
+PYBIND11_MODULE(_core, module) {
+  using namespace ceres_ed::python;
+  module.doc() = "Embedded-deformation graphs on Ceres Solver.";
+  module.attr("__version__") = ceres_ed::kVersion;
+  // A class ahead of the functions that take it or return it, so that their texts name it.
+  BindCloud(module);
+  BindEnergies(module);
+  BindGraph(module);
+  BindWarp(module);
+  BindFitOptions(module);
+  BindFit(module);
+  BindEvaluate(module);
+  BindTracker(module);
+  module.def(
+      "backend",
+      [] {
+        const ceres_ed::LinearAlgebraBackend backend = ceres_ed::DescribeBackend();
+        py::dict about;
+        about["ceres"] = backend.ceres_version;
+        about["sparse_library"] = backend.sparse_library;
+        about["blas"] = backend.blas;
+        about["ordering"] = backend.ordering_library;
+        about["kernels"] = backend.kernels;
+        return about;
+      },
+      "What this process solves with: Ceres, its sparse library, BLAS, ordering, instructions.");
+}

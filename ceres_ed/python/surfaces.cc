@@ -1,0 +1,78 @@
+#include "ceres_ed/python/surfaces.h"
+
+#include <ceres_ed/python/arrays.h>
+
+#include <utility>
+
+namespace ceres_ed::python {
+namespace {
+
+// The attribute, or None.
+py::object Attribute(const py::object& object, const char* name) {
+  return py::getattr(object, name, py::none());
+}
+
+PointCloud FromArrays(const py::object& points,
+                      const py::object& triangles,
+                      const py::object& normals,
+                      const std::string& what) {
+  PointCloud cloud;
+  cloud.points = ToPoints(points, what + "'s points");
+  if (!IsNone(triangles)) {
+    cloud.triangles = ToTriangles(triangles, cloud.size(), what + "'s triangles");
+  }
+  // Open3D has an empty list where there are none.
+  if (!IsNone(normals) && py::len(normals) > 0) {
+    cloud.normals = ToNormals(normals, cloud.size(), what + "'s normals");
+  }
+  return cloud;
+}
+
+// Of trimesh and Open3D. A mesh of trimesh computes normals when asked for them, which the library
+// does, too, so they are taken of Open3D alone, where they may be those of a file.
+bool FromObject(const py::object& object, const std::string& what, PointCloud* cloud) {
+  if (py::hasattr(object, "to_legacy")) {  // Open3D's tensors
+    return FromObject(object.attr("to_legacy")(), what, cloud);
+  }
+  if (py::hasattr(object, "vertices")) {
+    const py::object faces = Attribute(object, "faces");
+    const bool is_trimesh = !IsNone(faces);
+    *cloud = FromArrays(object.attr("vertices"),
+                        is_trimesh ? faces : Attribute(object, "triangles"),
+                        is_trimesh ? py::none() : Attribute(object, "vertex_normals"),
+                        what);
+    return true;
+  }
+  if (!py::hasattr(object, "points")) return false;
+  *cloud = FromArrays(object.attr("points"), py::none(), Attribute(object, "normals"), what);
+  return true;
+}
+
+bool IsPairOfArrays(const py::object& object) {
+  // Not a list: two points are one, too. And of a pair of points the second is no matrix.
+  if (!py::isinstance<py::tuple>(object) || py::len(object) != 2) return false;
+  const py::array second = py::array::ensure(py::tuple(object)[1]);
+  return second && (second.ndim() == 2 || second.size() == 0);
+}
+
+}  // namespace
+
+SurfaceArgument::SurfaceArgument(const py::object& object, const std::string& what)
+    : object_(object) {
+  if (py::isinstance<Cloud>(object)) {
+    shared_ = &object.cast<Cloud&>().cloud;
+  } else if (py::isinstance<FittedSurface>(object)) {
+    const FittedSurface& fitted = object.cast<FittedSurface&>();
+    own_.points = fitted.result.points;
+    own_.normals = fitted.result.normals;
+    own_.normals_oriented = fitted.input.source.normals_oriented;
+    own_.triangles = fitted.input.source.triangles;
+  } else if (IsPairOfArrays(object)) {
+    const py::tuple pair = object;
+    own_ = FromArrays(pair[0], pair[1], py::none(), what);
+  } else if (py::isinstance<py::array>(object) || !FromObject(object, what, &own_)) {
+    own_.points = ToPoints(object, what);
+  }
+}
+
+}  // namespace ceres_ed::python

@@ -1,0 +1,92 @@
+// The class Tracker.
+#ifndef CERES_ED_PYTHON_TRACKER_H_
+#define CERES_ED_PYTHON_TRACKER_H_
+
+#include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/geometry/similarity.h>
+#include <ceres_ed/graph/warp.h>
+#include <ceres_ed/slam/slam.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+namespace ceres_ed::python {
+
+namespace py = pybind11;
+
+// The map's points as they are now: what tracker.snapshot() returns.
+struct MapSnapshot {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+  std::vector<std::array<std::uint8_t, 3>> colors;
+  std::vector<int> ids;
+  std::vector<int> birth_frames;
+  std::vector<double> weights;
+};
+
+// A DeformableSlam that takes arrays and works without the interpreter's lock.
+class Tracker {
+ public:
+  Tracker(const PinholeCamera& camera,
+          const SlamOptions* options,
+          const py::object& energies,
+          const py::object& plugin,
+          const py::kwargs& changes);
+
+  FrameReport Track(const py::object& depth,
+                    const py::object& color,
+                    const py::object& pose,
+                    std::optional<double> units_per_metre,
+                    std::optional<int> number,
+                    bool catch_up);
+  MapSnapshot Snapshot(const std::string& frame);
+  Warp MakeWarp();
+  // Of the camera in the map, metres; nothing before the first frame.
+  std::optional<Similarity> CameraPose() const;
+  py::array PointRelevant() const;
+  int NumPoints() const;
+
+ private:
+  // RuntimeError where another thread is at work here, which has let go of the interpreter's lock;
+  // waiting for it with the lock held would have it wait for us.
+  class Turn {
+   public:
+    explicit Turn(bool* busy) : busy_(busy) {
+      if (*busy) throw std::runtime_error("the tracker is at work in another thread");
+      *busy = true;
+    }
+    ~Turn() { *busy_ = false; }
+    Turn(const Turn&) = delete;
+    Turn& operator=(const Turn&) = delete;
+
+   private:
+    bool* busy_;
+  };
+
+  void CheckSize(const py::array& image, const char* what) const;
+  py::array_t<float, py::array::c_style> Metres(const py::object& depth,
+                                                std::optional<double> units_per_metre) const;
+  void CatchUp();
+
+  PinholeCamera camera_;
+  bool camera_is_given_ = false;
+  EnergyRegistry registry_;
+  std::unique_ptr<DeformableSlam> slam_;
+  int next_number_ = 0;
+  // Read and written with the interpreter's lock.
+  mutable bool busy_ = false;
+};
+
+}  // namespace ceres_ed::python
+
+#endif  // CERES_ED_PYTHON_TRACKER_H_
