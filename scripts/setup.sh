@@ -9,6 +9,7 @@ packages=(
   libnanoflann-dev nlohmann-json3-dev libpcl-dev libboost-dev
   libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev
   libgtest-dev libgmock-dev
+  doxygen
   python3-dev pybind11-dev python3-numpy python3-pytest python3-pil mypy
 )
 

@@ -1,5 +1,6 @@
 // What README.md says is what is there.
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_listing.h>
 
 #include <filesystem>
 #include <fstream>
@@ -73,6 +74,15 @@ TEST(Readme, ListsTheEnergiesAsTheRegistryHasThem) {
   EXPECT_NE(readme.find("\n\n" + table + "\n"), std::string::npos) << "expected:\n" << table;
 }
 
+TEST(EnergyPage, HasTheCatalogueOfTheRegistry) {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  EXPECT_THAT(ReadSourceFile("ceres_ed/energy/README.md"),
+              HasSubstr("<!-- ed_list_energies: begin -->\n" + ListEnergiesAsMarkdown(registry) +
+                        "<!-- ed_list_energies: end -->\n"))
+      << "scripts/refresh_pages.sh brings it up to date";
+}
+
 TEST(Readme, LinksOnlyToWhatIsThere) {
   const std::string readme = ReadSourceFile("README.md");
   const std::vector<std::string> links = FindAll(readme, "\\]\\(([^)]+)\\)");
@@ -90,7 +100,7 @@ TEST(Readme, LinksOnlyToWhatIsThere) {
 TEST(Readme, GivesProgramsOnlyFlagsThatTheyHave) {
   const std::string readme = ReadSourceFile("README.md");
   // A line of code, or a piece of it in a line of text.
-  const std::regex command("(?:\n    |`)(ed_[a-z_]+) ([^`\n]*)");
+  const std::regex command("(?:\n|`)(ed_[a-z_]+) ([^`\n]*)");
   int num_flags = 0;
   for (std::sregex_iterator it(readme.begin(), readme.end(), command), end; it != end; ++it) {
     const std::string program = (*it)[1];

@@ -4,10 +4,14 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/registration/fit.h>
+#include <ceres_ed/testing/energy_laws.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
 
 using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a program, not a header
 
@@ -85,6 +89,12 @@ int main() {
   RegisterBuiltinEnergies(&registry);
   CHECK(RegisterFloor(&registry).ok());
 
+  EnergyClaims claims;
+  claims.parameters["height"] = 5.0;           // all points are below the floor,
+  claims.squared_norm_at_rest = std::nullopt;  // and pay for it at rest, too
+  const std::vector<std::string> violations = CheckEnergyLaws(registry, "floor", claims);
+  for (const std::string& violation : violations) std::printf("%s\n", violation.c_str());
+
   EnergySpec floor;
   floor.name = "floor";
   floor.weight = 1e4;
@@ -92,5 +102,5 @@ int main() {
   const double without = LowestPoint(registry, {});
   const double with = LowestPoint(registry, {floor});
   std::printf("lowest point: %.3f without the floor, %.3f with it at -0.12\n", without, with);
-  return without < -0.15 && with > -0.125 ? 0 : 1;
+  return violations.empty() && without < -0.15 && with > -0.125 ? 0 : 1;
 }

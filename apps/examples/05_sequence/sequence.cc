@@ -1,0 +1,67 @@
+// Follows the camera and the tissue of a depth sequence, and writes the map: the core of ed_slam.
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/io/sequence/depth_sequence.h>
+#include <ceres_ed/slam/slam.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a program, not a header
+
+namespace {
+
+int Fail(const Status& status) {
+  std::fprintf(stderr, "%s\n", status.message().c_str());
+  return 1;
+}
+
+// All points as they are now: metres, in the frame of the first camera.
+PointCloud MapNow(const DeformableSlam& slam) {
+  const DeformableMap& map = slam.map();
+  PointCloud cloud;
+  for (int slot = 0; slot < map.num_slots(); ++slot) {
+    if (!map.alive(slot)) continue;
+    const PointBinding binding = map.binding(slot);
+    cloud.points.push_back(slam.unit() * (map.WarpOf(binding) * map.point(slot).position));
+  }
+  return cloud;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {  // sequence FOLDER MAP.ply
+  if (argc != 3) return 1;
+  const StatusOr<std::unique_ptr<DepthSequence>> sequence = OpenSequence(argv[1]);
+  if (!sequence.ok()) return Fail(sequence.status());
+
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  const StatusOr<std::unique_ptr<DeformableSlam>> slam =
+      DeformableSlam::Create((*sequence)->camera(), SlamOptions(), registry);
+  if (!slam.ok()) return Fail(slam.status());
+
+  int tracked = 0;
+  for (int i = 0; i < (*sequence)->num_frames(); ++i) {
+    const StatusOr<DepthFrame> picture = (*sequence)->Load(i);
+    if (!picture.ok()) continue;  // damaged: go on with the next one
+    SlamFrame frame;
+    frame.number = picture->number;
+    frame.depth = &picture->depth;
+    frame.color = &picture->color;
+    const FrameReport report = (*slam)->Process(frame);
+    std::printf("frame %d: %s, %d nodes, %d of %d points seen\n",
+                report.number,
+                FrameStatusName(report.status).c_str(),
+                report.nodes,
+                report.points,
+                report.map_points);
+    if (report.status == FrameStatus::kTracked) ++tracked;
+  }
+
+  (*slam)->CatchUp();  // hidden nodes that were left behind follow
+  const Status saved = WriteCloud(argv[2], MapNow(**slam));
+  if (!saved.ok()) return Fail(saved);
+  return tracked + 1 == (*sequence)->num_frames() ? 0 : 1;
+}
