@@ -12,7 +12,9 @@ void RegisterBuiltinEnergies(EnergyRegistry* registry) {
                                              RegisterPosePrior,
                                              RegisterPointToPlane,
                                              RegisterPointToPoint,
-                                             RegisterLandmark};
+                                             RegisterLandmark,
+                                             RegisterSymmetricPointToPlane,
+                                             RegisterPhotometric};
   for (RegisterFunction* const register_energy : kEnergies) {
     const Status status = register_energy(registry);
     CHECK(status.ok()) << status.message();

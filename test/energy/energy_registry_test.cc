@@ -200,12 +200,14 @@ TEST(EnergyRegistry, ListsEnergiesInTheOrderOfTheirNames) {
   EXPECT_THAT(names,
               ElementsAre("landmark",
                           "node_prior",
+                          "photometric",
                           "point_to_plane",
                           "point_to_point",
                           "pose_prior",
                           "regularization",
-                          "rotation"));
-  EXPECT_EQ(registry.Find("rotation"), registry.List().back());
+                          "rotation",
+                          "symmetric_point_to_plane"));
+  EXPECT_EQ(registry.Find("symmetric_point_to_plane"), registry.List().back());
   EXPECT_EQ(registry.Find("rotaton"), nullptr);
 }
 

@@ -17,6 +17,8 @@ Status RegisterPosePrior(EnergyRegistry* registry);
 Status RegisterPointToPlane(EnergyRegistry* registry);
 Status RegisterPointToPoint(EnergyRegistry* registry);
 Status RegisterLandmark(EnergyRegistry* registry);
+Status RegisterSymmetricPointToPlane(EnergyRegistry* registry);
+Status RegisterPhotometric(EnergyRegistry* registry);
 
 }  // namespace ceres_ed
 
