@@ -16,7 +16,9 @@ void RegisterBuiltinEnergies(EnergyRegistry* registry) {
                                              RegisterPointToPlane,
                                              RegisterPointToPoint,
                                              RegisterLandmark,
-                                             RegisterPinnedVertex};
+                                             RegisterPinnedVertex,
+                                             RegisterSymmetricPointToPlane,
+                                             RegisterPhotometric};
   for (RegisterFunction* const register_energy : kEnergies) {
     const Status status = register_energy(registry);
     CHECK(status.ok()) << status.message();

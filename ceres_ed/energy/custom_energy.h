@@ -1,6 +1,7 @@
 // All that an energy of your own needs. Three ways in, by what its functor sees:
 //
-//   a warped point      ForEachPoint, ForEachMatch, ForEachLandmark (point_energy.h)
+//   a warped point      ForEachPoint, ForEachMatch, ForEachDetailedMatch, ForEachLandmark
+//                         (point_energy.h)
 //   one or two nodes    ForEachNode, ForEachEdge (block_energy.h)
 //   anything else       MakeEnergy with AddPointResidual, AddPointsResidual, AddBlockResidual
 //

@@ -148,6 +148,23 @@ std::unique_ptr<EnergyTerm> ForEachMatch(MakeFunctor make) {
   return ForEachCorrespondence(&EnergyContext::correspondences, std::move(make));
 }
 
+// The same where more is known of a pair: `make(const Correspondence&, const MatchDetail&)`, with
+// nothing known (MatchDetail()) where matching has left no detail.
+template <typename MakeFunctor>
+std::unique_ptr<EnergyTerm> ForEachDetailedMatch(MakeFunctor make) {
+  return MakeEnergy(
+      EnergyKind::kObservation, [make](const EnergyContext& context, ResidualSink* sink) {
+        const MatchDetail unknown;
+        for (const Correspondence& c : *context.correspondences) {
+          const bool known = context.match_details != nullptr && c.detail >= 0;
+          const MatchDetail& detail = known ? (*context.match_details)[c.detail] : unknown;
+          VisitFunctor(make(c, detail), [&](auto functor) {
+            AddPointResidual(context, c.point, std::move(functor), c.weight, sink);
+          });
+        }
+      });
+}
+
 // The same of what the user gave: landmarks.
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachLandmark(MakeFunctor make) {

@@ -3,6 +3,7 @@
 #include <ceres_ed/io/ply_reader.h>
 #include <ceres_ed/io/vertex_columns.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -22,6 +23,28 @@ bool IsUsableCoordinate(const Eigen::Vector3d& point) {
   return point.cwiseAbs().maxCoeff() <= kMaxCoordinate && point.allFinite();
 }
 
+// What full red is as a number of `type`.
+double LargestColor(PlyType type) {
+  switch (type) {
+    case PlyType::kInt8:
+      return 127.0;
+    case PlyType::kUint8:
+      return 255.0;
+    case PlyType::kInt16:
+      return 32767.0;
+    case PlyType::kUint16:
+      return 65535.0;
+    case PlyType::kInt32:
+      return 2147483647.0;
+    case PlyType::kUint32:
+      return 4294967295.0;
+    case PlyType::kFloat32:
+    case PlyType::kFloat64:
+      break;
+  }
+  return 1.0;
+}
+
 class CloudBuilder {
  public:
   CloudBuilder(const std::string& path, PlyDocument document) : path_(path) {
@@ -33,6 +56,7 @@ class CloudBuilder {
     Status status = AddPoints();
     if (!status.ok()) return status;
     AddNormals();
+    AddIntensities();
     status = AddTriangles();
     if (!status.ok()) return status;
     return std::move(loaded_);
@@ -91,6 +115,22 @@ class CloudBuilder {
       Warn("all normals are zero or not finite and were left out");
     } else if (bad > 0) {
       Warn(Counted(bad, "normal") + " of zero length or not finite");
+    }
+  }
+
+  void AddIntensities() {
+    const std::optional<VertexColumns> columns = FindColorColumns(*vertices_);
+    if (!columns.has_value()) return;
+    // Rec. 601 luma.
+    const Eigen::Vector3d luminance(0.299, 0.587, 0.114);
+    Eigen::Vector3d share = luminance;
+    for (int i = 0; i < 3; ++i) share[i] /= LargestColor(vertices_->properties[(*columns)[i]].type);
+    loaded_.cloud.intensities.reserve(loaded_.cloud.size());
+    for (const int row : loaded_.vertex_of_point) {
+      const double value = share.dot(RowOf(*vertices_, *columns, static_cast<std::size_t>(row)));
+      loaded_.cloud.intensities.push_back(std::isfinite(value)
+                                              ? std::clamp(value, 0.0, 1.0)
+                                              : std::numeric_limits<double>::quiet_NaN());
     }
   }
 

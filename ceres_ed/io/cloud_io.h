@@ -30,6 +30,8 @@ struct LoadedCloud {
 
 // Returns the cloud of the PLY file `path`: element 'vertex' with x y z of any type; normals from
 // nx ny nz or normal_x normal_y normal_z, brought to unit length, a zero or not finite one as zero;
+// intensities 0.299 R + 0.587 G + 0.114 B from red green blue, in [0, 1] where they are floats and
+// as parts of the largest number where they are integers, NaN where one is not finite;
 // triangles from the list vertex_indices or vertex_index of element 'face', polygons as fans.
 // Dropped with a warning: points that are not finite and the triangles on them, polygons of fewer
 // than three corners, triangles that name a vertex twice. Errors: as of ReadPly; no vertices; no

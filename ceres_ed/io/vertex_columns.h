@@ -39,6 +39,11 @@ inline std::optional<VertexColumns> FindNormalColumns(const PlyElement& element)
   return columns.has_value() ? columns : FindColumns(element, {"normal_x", "normal_y", "normal_z"});
 }
 
+// red green blue, or nothing.
+inline std::optional<VertexColumns> FindColorColumns(const PlyElement& element) {
+  return FindColumns(element, {"red", "green", "blue"});
+}
+
 // The vector in `row`.
 inline Eigen::Vector3d RowOf(const PlyElement& element,
                              const VertexColumns& columns,

@@ -66,6 +66,7 @@ SurfaceArgument::SurfaceArgument(const py::object& object, const std::string& wh
     own_.points = fitted.result.points;
     own_.normals = fitted.result.normals;
     own_.normals_oriented = fitted.input.source.normals_oriented;
+    own_.intensities = fitted.input.source.intensities;
     own_.triangles = fitted.input.source.triangles;
   } else if (IsPairOfArrays(object)) {
     const py::tuple pair = object;

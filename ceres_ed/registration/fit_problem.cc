@@ -24,6 +24,7 @@ EnergyContext FitProblem::Context(const Term& term,
   if (source_.HasTriangles()) context.triangles = &source_.triangles;
   context.skinning = &graph_.skinning;
   context.correspondences = term.rule.thinned ? &thinned_ : &correspondences_;
+  context.match_details = &details_;
   context.landmarks = &landmarks;
   return context;
 }
@@ -131,9 +132,9 @@ void FitProblem::SetStiffness(double stiffness) {
   }
 }
 
-void FitProblem::SetCorrespondences(std::vector<Correspondence> correspondences,
-                                    double loss_width) {
-  correspondences_ = std::move(correspondences);
+void FitProblem::SetMatches(const Matches& matches, double loss_width) {
+  correspondences_ = matches.correspondences;
+  details_ = matches.details;
   thinned_.clear();
   for (std::size_t i = 0; i < correspondences_.size(); i += kThinning) {
     thinned_.push_back(correspondences_[i]);

@@ -29,7 +29,7 @@ class FitProblem {
   void SetStiffness(double stiffness);
 
   // Replaces what was matched; `loss_width` is in the unit frame.
-  void SetCorrespondences(std::vector<Correspondence> correspondences, double loss_width);
+  void SetMatches(const Matches& matches, double loss_width);
 
   const ProblemBuilder& builder() const { return builder_; }
 
@@ -46,7 +46,7 @@ class FitProblem {
     bool matched = false;
     // Collect a part of the correspondences alone, with their weights raised.
     bool thinned = false;
-    // Give the data loss, with the width that SetCorrespondences asks for.
+    // Give the data loss, with the width that SetMatches asks for.
     bool adaptive_loss = false;
   };
   struct Term {
@@ -71,6 +71,7 @@ class FitProblem {
   std::vector<Term> terms_;
   std::vector<Correspondence> correspondences_;
   std::vector<Correspondence> thinned_;
+  std::vector<MatchDetail> details_;
   std::vector<Correspondence> landmarks_;
   LossType loss_ = LossType::kSquared;
   double stiffness_ = 1.0;

@@ -62,11 +62,29 @@ double DistanceFromDisc(const Eigen::Vector3d& gap, const Eigen::Vector3d& norma
   return std::hypot(across, std::max(0.0, along - radius));
 }
 
+// `normal` is that of `point` of the source as it is warped now.
+MatchDetail Detail(const MovedSource& source,
+                   int point,
+                   const Eigen::Vector3d& normal,
+                   const Eigen::Vector3d& target_normal,
+                   const Intensity& target_intensity) {
+  const PointCloud& rest = source.rest->cloud();
+  MatchDetail detail;
+  detail.source_normal = normal;
+  detail.target_normal = target_normal;
+  if (rest.HasIntensities()) detail.source_intensity = rest.intensities[point];
+  detail.target_intensity = target_intensity.value;
+  detail.intensity_gradient = target_intensity.gradient;
+  return detail;
+}
+
+// `details` may be null: of the same pairs as `candidates`.
 void MatchForward(const MovedSource& source,
                   const Surface& target,
                   const MatchingOptions& options,
                   MatchMemory* memory,
-                  Candidate* candidates) {
+                  Candidate* candidates,
+                  MatchDetail* details) {
   const std::vector<int>& samples = *source.samples;
   memory->on_target.resize(samples.size(), -1);
   const NormalTest normals(*source.rest, target, options);
@@ -83,6 +101,7 @@ void MatchForward(const MovedSource& source,
       const Eigen::Vector3d& normal = (*source.normals)[i];
       const Eigen::Vector3d target_normal = target.NormalAt(hit);
       candidate.match = {samples[i],
+                         /*detail=*/-1,
                          hit.position,
                          PairNormal(normal, target_normal, options),
                          source.rest->relative_areas()[samples[i]] / samples.size()};
@@ -90,6 +109,9 @@ void MatchForward(const MovedSource& source,
       candidate.distance = std::sqrt(hit.squared_distance);
       candidate.on_border = options.reject_borders && hit.on_border;
       candidate.normals_agree = normals.Agree(normal, target_normal);
+      if (details != nullptr) {
+        details[i] = Detail(source, samples[i], normal, target_normal, target.IntensityAt(hit));
+      }
     }
   });
 }
@@ -99,7 +121,8 @@ void MatchBackward(const MovedSource& source,
                    const std::vector<int>& target_samples,
                    const MatchingOptions& options,
                    MatchMemory* memory,
-                   Candidate* candidates) {
+                   Candidate* candidates,
+                   MatchDetail* details) {
   const std::vector<int>& samples = *source.samples;
   memory->in_source.resize(target_samples.size(), -1);
   if (samples.empty() || target_samples.empty()) return;
@@ -123,6 +146,7 @@ void MatchBackward(const MovedSource& source,
       const Eigen::Vector3d& normal = (*source.normals)[nearest.index];
       Candidate& candidate = candidates[i];
       candidate.match = {sample,
+                         /*detail=*/-1,
                          position,
                          PairNormal(normal, target_normal, options),
                          target.relative_areas()[point] / count};
@@ -132,6 +156,9 @@ void MatchBackward(const MovedSource& source,
       candidate.on_border =
           options.reject_borders && source.rest->topology().is_border[sample] != 0;
       candidate.normals_agree = normals.Agree(normal, target_normal);
+      if (details != nullptr) {
+        details[i] = Detail(source, sample, normal, target_normal, target.IntensityOf(point));
+      }
     }
   });
 }
@@ -165,21 +192,33 @@ double MedianDistance(const std::vector<Candidate>& candidates) {
   return *middle;
 }
 
-// The candidates of the source's samples, then those of the target's.
+// The candidates of the source's samples, then those of the target's; `details`, one each, may be
+// null.
 std::vector<Candidate> FindCandidates(const MovedSource& source,
                                       const Surface& target,
                                       const std::vector<int>& target_samples,
                                       const MatchingOptions& options,
-                                      MatchMemory* memory) {
+                                      MatchMemory* memory,
+                                      std::vector<MatchDetail>* details) {
   CHECK_EQ(source.points->size(), source.samples->size());
   CHECK_EQ(source.normals->size(), source.samples->size());
   std::vector<Candidate> candidates(source.samples->size() + target_samples.size());
   MatchMemory none;
   if (memory == nullptr) memory = &none;
-  Candidate* backward = candidates.data() + source.samples->size();
+  const std::size_t num_forward = source.samples->size();
+  if (details != nullptr) details->resize(candidates.size());
+  const auto details_from = [details](std::size_t first) {
+    return details != nullptr ? details->data() + first : nullptr;
+  };
   Prepare(source, target, target_samples, memory);
-  MatchForward(source, target, options, memory, candidates.data());
-  MatchBackward(source, target, target_samples, options, memory, backward);
+  MatchForward(source, target, options, memory, candidates.data(), details_from(0));
+  MatchBackward(source,
+                target,
+                target_samples,
+                options,
+                memory,
+                candidates.data() + num_forward,
+                details_from(num_forward));
   return candidates;
 }
 
@@ -207,19 +246,25 @@ Matches MatchBothWays(const MovedSource& source,
                       const std::vector<int>& target_samples,
                       const MatchingOptions& options,
                       MatchMemory* memory) {
-  const std::vector<Candidate> candidates =
-      FindCandidates(source, target, target_samples, options, memory);
+  std::vector<MatchDetail> details;
+  const std::vector<Candidate> candidates = FindCandidates(
+      source, target, target_samples, options, memory, options.with_details ? &details : nullptr);
   Matches matches;
   matches.robust_distance = kMadToSigma * MedianDistance(candidates);
   const double limit =
       std::max(options.resolution, options.max_deviations * matches.robust_distance);
   double sum_plane = 0.0;
   double sum_point = 0.0;
-  for (const Candidate& candidate : candidates) {
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const Candidate& candidate = candidates[i];
     if (candidate.match.point < 0) continue;
     ++matches.candidates;
     if (!candidate.IsPlausible() || candidate.distance > limit) continue;
     matches.correspondences.push_back(candidate.match);
+    if (options.with_details) {
+      matches.correspondences.back().detail = static_cast<int>(matches.details.size());
+      matches.details.push_back(details[i]);
+    }
     sum_plane += std::pow(candidate.gap.dot(candidate.match.normal), 2);
     sum_point += candidate.gap.squaredNorm();
   }
@@ -237,7 +282,7 @@ Unmatched FindUnmatched(const MovedSource& source,
                         double width,
                         const MatchingOptions& options) {
   const std::vector<Candidate> candidates =
-      FindCandidates(source, target, target_samples, options, nullptr);
+      FindCandidates(source, target, target_samples, options, nullptr, nullptr);
   const auto share = [&](std::size_t begin, std::size_t end) {
     double sum = 0.0;
     for (std::size_t i = begin; i < end; ++i) {

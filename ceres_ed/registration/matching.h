@@ -29,6 +29,8 @@ struct MatchingOptions {
   bool symmetric_normals = true;
   // Pairs this near are kept whatever the deviations say, >= 0: the resolution of the surfaces.
   double resolution = 0.0;
+  // Fill in Matches::details: what only energies beyond the built-in ones of a fit look at.
+  bool with_details = false;
   // The result doesn't depend on it, >= 1.
   int num_threads = 1;
 
@@ -62,6 +64,8 @@ struct MatchMemory {
 // What a matching found.
 struct Matches {
   std::vector<Correspondence> correspondences;
+  // By Correspondence::detail; empty where they weren't asked for.
+  std::vector<MatchDetail> details;
   // Pairs that had a closest point at all, and those that were believed.
   int candidates = 0;
   int inliers = 0;

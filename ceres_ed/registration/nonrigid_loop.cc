@@ -92,10 +92,11 @@ void NonrigidLoop::Match() {
   const Timer timer;
   MatchingOptions matching = options_.matching;
   matching.max_angle_deg = plan_.max_angle_deg;
+  matching.with_details = !options_.extra_energies.empty();
   result_->matches = MatchBothWays(moving_.Moved(), *target_, target_samples_, matching, &memory_);
   const double width =
       plan_.loss_width * std::max(result_->matches.robust_distance, options_.matching.resolution);
-  problem_->SetCorrespondences(result_->matches.correspondences, std::max(width, 1e-12));
+  problem_->SetMatches(result_->matches, std::max(width, 1e-12));
   result_->times.associate += timer.Seconds();
 }
 

@@ -73,6 +73,26 @@ Eigen::Vector3d Surface::NormalAt(const SurfaceHit& hit) const {
   return norm > 0.0 ? Eigen::Vector3d(blended / norm) : Eigen::Vector3d::Zero();
 }
 
+Intensity Surface::IntensityAt(const SurfaceHit& hit) const {
+  if (!cloud_.HasIntensities() || !hit.found()) return {};
+  if (hit.triangle < 0) return IntensityOf(hit.nearest_vertex);
+  const std::array<int, 3>& t = cloud_.triangles[hit.triangle];
+  const std::array<double, 3> values = {
+      cloud_.intensities[t[0]], cloud_.intensities[t[1]], cloud_.intensities[t[2]]};
+  const Eigen::Vector3d gradient =
+      GradientOnTriangle(cloud_.points[t[0]], cloud_.points[t[1]], cloud_.points[t[2]], values);
+  if (!gradient.allFinite()) return {};
+  return {hit.barycentric.dot(Eigen::Map<const Eigen::Vector3d>(values.data())), gradient};
+}
+
+Intensity Surface::IntensityOf(int point) const {
+  if (!cloud_.HasIntensities()) return {};
+  std::call_once(gradients_built_, [this] { intensity_gradients_ = IntensityGradients(cloud_); });
+  const Eigen::Vector3d& gradient = intensity_gradients_[point];
+  if (!gradient.allFinite()) return {};
+  return {cloud_.intensities[point], gradient};
+}
+
 std::vector<int> SamplePoints(const Surface& surface, int count) {
   const SurfaceTopology& topology = surface.topology();
   std::vector<int> candidates;

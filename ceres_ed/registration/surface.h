@@ -3,6 +3,7 @@
 #define CERES_ED_REGISTRATION_SURFACE_H_
 
 #include <ceres_ed/geometry/closest_point.h>
+#include <ceres_ed/geometry/intensity.h>
 #include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/topology.h>
@@ -38,14 +39,22 @@ class Surface {
   double radius(int point) const { return radii_[point]; }
   // The unit normal at a hit: corner normals blended, zero where none is known.
   Eigen::Vector3d NormalAt(const SurfaceHit& hit) const;
+  // The brightness at a hit: linear on a triangle. Unknown where the cloud has none, or no
+  // gradient.
+  Intensity IntensityAt(const SurfaceHit& hit) const;
+  // The brightness of a point, with the gradient around it. What that takes is built when it is
+  // first asked for.
+  Intensity IntensityOf(int point) const;
 
  private:
   PointCloud cloud_;
   SurfaceTopology topology_;
   mutable std::once_flag index_built_;
   mutable std::once_flag tree_built_;
+  mutable std::once_flag gradients_built_;
   mutable std::optional<SurfaceIndex> index_;
   mutable std::optional<KdTree> tree_;
+  mutable std::vector<Eigen::Vector3d> intensity_gradients_;
   std::vector<double> relative_areas_;
   std::vector<double> radii_;
 };

@@ -28,6 +28,9 @@ constexpr int kMaxContradictions = 5;
 
 FrameObservations DeformableSlam::Observe(const AssociationResult& association) const {
   FrameObservations observations;
+  // What built-in energies don't look at is left out.
+  const bool with_details = !options_.levels.energies.empty();
+  const CameraPose& pose = map_.state().camera_from_map;
   const std::size_t count = association.matches.size();
   const std::size_t kept = std::min<std::size_t>(count, options_.max_observations);
   for (std::size_t k = 0; k < kept; ++k) {
@@ -38,6 +41,7 @@ FrameObservations DeformableSlam::Observe(const AssociationResult& association) 
     o.binding = map_.binding(point.slot);
     o.target = match.patch->point;
     o.normal = match.patch->normal;
+    if (with_details) o.source_normal = pose.rotation * point.normal_in_map;
     o.weight = match.weight;
     observations.planes.push_back(o);
   }

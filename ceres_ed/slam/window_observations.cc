@@ -20,6 +20,7 @@ EnergyContext WindowObservations::Context(const LevelWindow& window) const {
   context.points = &points_;
   context.skinning = &skinning_;
   context.correspondences = &planes_;
+  context.match_details = &details_;
   context.landmarks = &features_;
   context.node_prior = &node_prior_;
   return context;
@@ -37,6 +38,12 @@ std::vector<Correspondence> WindowObservations::Take(
     c.target = o.target;
     c.normal = o.normal;
     c.weight = o.weight;
+    if (!o.source_normal.isZero(0.0)) {
+      c.detail = static_cast<int>(details_.size());
+      details_.emplace_back();
+      details_.back().source_normal = o.source_normal;
+      details_.back().target_normal = o.normal;
+    }
     correspondences.push_back(c);
     points_.push_back(o.position);
     skinning_.Add(nodes, o.binding.weights, o.binding.size);

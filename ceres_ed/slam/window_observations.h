@@ -36,6 +36,7 @@ class WindowObservations {
   Skinning skinning_;
   std::vector<Correspondence> planes_;
   std::vector<Correspondence> features_;
+  std::vector<MatchDetail> details_;
   std::vector<Eigen::Vector3d> node_prior_;
 };
 

@@ -185,6 +185,10 @@ class EnergyLawChecker {
     TestProblem changed = problem;
     for (Correspondence& c : changed.correspondences) c.normal.setZero();
     for (Correspondence& c : changed.landmarks) c.normal.setZero();
+    for (MatchDetail& detail : changed.match_details) {
+      detail.source_normal.setZero();
+      detail.target_normal.setZero();
+    }
     CheckFinite(changed, "zero normals");
     changed = problem;
     for (Correspondence& c : changed.correspondences) c.target.setConstant(1e6);
@@ -197,6 +201,9 @@ class EnergyLawChecker {
     }
     for (const GraphEdge& edge : problem.graph.edges()) changed.graph.AddEdge(edge);
     CheckFinite(changed, "all nodes at one place");
+    changed = problem;
+    for (Correspondence& c : changed.correspondences) c.detail = -1;
+    CheckFinite(changed, "nothing more known of matched pairs");
     changed = problem;
     changed.correspondences.clear();
     changed.landmarks.clear();

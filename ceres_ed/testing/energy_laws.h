@@ -56,8 +56,8 @@ struct EnergyClaims {
 //   - asked twice it adds the same, to the bit;
 //   - its residuals obey CheckCostLaws, around rest and with targets that are off;
 //   - the claimed motions leave its sum of squares as it is;
-//   - zero normals, targets 1e6 units away, several nodes at one
-//     place and empty lists leave everything finite.
+//   - zero normals, targets 1e6 units away, several nodes at one place, pairs without details and
+//     empty lists leave everything finite.
 std::vector<std::string> CheckEnergyLaws(const EnergyRegistry& registry,
                                          const std::string& name,
                                          const EnergyClaims& claims = {});

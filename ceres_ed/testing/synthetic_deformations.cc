@@ -158,6 +158,7 @@ PointCloud DeformSyntheticShape(SyntheticShape shape,
                                 const PointCloud& cloud) {
   PointCloud deformed;
   deformed.triangles = cloud.triangles;
+  deformed.intensities = cloud.intensities;
   deformed.points.reserve(cloud.size());
   for (const Eigen::Vector3d& point : cloud.points) {
     deformed.points.push_back(DeformSyntheticPoint(shape, size, phase, point));

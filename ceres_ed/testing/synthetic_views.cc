@@ -152,6 +152,7 @@ PointCloud VisiblePart(const PointCloud& mesh, const SyntheticView& view, std::v
     if (index[k] < 0) continue;
     index[k] = static_cast<int>(part.size());
     part.points.push_back(mesh.points[k]);
+    if (mesh.HasIntensities()) part.intensities.push_back(mesh.intensities[k]);
     if (mesh.HasNormals()) part.normals.push_back(mesh.normals[k]);
     if (kept != nullptr) kept->push_back(static_cast<int>(k));
   }

@@ -47,6 +47,22 @@ void AddPoint(int column, int row, double u, double v, int rows, TestProblem* pr
   problem->skinning.Add(nodes.data(), weights.data(), 4);
 }
 
+// With numbers of its own, so that the correspondences are the same with and without details.
+void AddDetails(std::uint64_t seed, TestProblem* problem) {
+  SyntheticRandom random(seed + 1);
+  for (Correspondence& c : problem->correspondences) {
+    MatchDetail detail;
+    detail.source_normal = (Eigen::Vector3d::UnitZ() + GaussianVector(0.3, &random)).normalized();
+    detail.target_normal = c.normal;
+    detail.target_intensity = random.Uniform();
+    detail.source_intensity = detail.target_intensity;
+    const Eigen::Vector3d slope = GaussianVector(0.5, &random);
+    detail.intensity_gradient = slope - c.normal * c.normal.dot(slope);
+    c.detail = static_cast<int>(problem->match_details.size());
+    problem->match_details.push_back(detail);
+  }
+}
+
 }  // namespace
 
 EnergyContext TestProblem::Context() const {
@@ -55,6 +71,7 @@ EnergyContext TestProblem::Context() const {
   context.points = &points;
   context.skinning = &skinning;
   context.correspondences = &correspondences;
+  context.match_details = &match_details;
   context.landmarks = &landmarks;
   context.has_camera = has_camera;
   context.camera_prior = camera_prior;
@@ -69,6 +86,11 @@ void TestProblem::MoveTargets(const CameraPose& motion) {
       c.target = motion * c.target;
       c.normal = motion.rotation * c.normal;
     }
+  }
+  for (MatchDetail& detail : match_details) {
+    detail.source_normal = motion.rotation * detail.source_normal;
+    detail.target_normal = motion.rotation * detail.target_normal;
+    detail.intensity_gradient = motion.rotation * detail.intensity_gradient;
   }
 }
 
@@ -99,6 +121,7 @@ TestProblem MakeTestProblem(const TestProblemOptions& options) {
       }
     }
   }
+  AddDetails(options.seed, &problem);
   problem.landmarks = {observe(0), observe(static_cast<int>(problem.points.size()) - 1)};
   return problem;
 }

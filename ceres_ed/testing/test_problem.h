@@ -35,6 +35,9 @@ struct TestProblem {
   std::vector<Eigen::Vector3d> points;
   Skinning skinning;
   std::vector<Correspondence> correspondences;
+  // One a correspondence: normals around +z, and brightness that is the same on both sides where
+  // the target is at the point.
+  std::vector<MatchDetail> match_details;
   // The first point and the last.
   std::vector<Correspondence> landmarks;
   bool has_camera = false;

@@ -201,12 +201,14 @@ TEST(EnergyRegistry, ListsEnergiesInTheOrderOfTheirNames) {
               ElementsAre("landmark",
                           "laplacian",
                           "node_prior",
+                          "photometric",
                           "pinned_vertex",
                           "point_to_plane",
                           "point_to_point",
                           "pose_prior",
                           "regularization",
                           "rotation",
+                          "symmetric_point_to_plane",
                           "temporal_smoothness",
                           "volume"));
   EXPECT_EQ(registry.Find("volume"), registry.List().back());

@@ -47,6 +47,38 @@ std::string PointsPly(const std::string& properties, const std::vector<std::stri
   return text;
 }
 
+TEST_F(CloudIo, ReadsBrightnessFromColorsOfAnyType) {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  const auto colors = [&](const std::string& type) {
+    return xyz + "property " + type + " red\nproperty " + type + " green\nproperty " + type +
+           " blue\n";
+  };
+  const StatusOr<LoadedCloud> bytes =
+      Load(PointsPly(colors("uchar"), {"0 0 0 255 255 255", "nan 0 0 9 9 9", "1 0 0 51 102 204"}));
+  ASSERT_TRUE(bytes.ok()) << bytes.status().message();
+  ASSERT_TRUE(bytes->cloud.HasIntensities());
+  EXPECT_NEAR(bytes->cloud.intensities[0], 1.0, 1e-15);
+  EXPECT_NEAR(bytes->cloud.intensities[1], 0.299 * 0.2 + 0.587 * 0.4 + 0.114 * 0.8, 1e-15);
+  const StatusOr<LoadedCloud> floats =
+      Load(PointsPly(colors("double"), {"0 0 0 0.2 0.4 0.8", "0 0 0 0 nan 0", "0 0 0 7 7 7"}));
+  ASSERT_TRUE(floats.ok()) << floats.status().message();
+  EXPECT_NEAR(floats->cloud.intensities[0], 0.299 * 0.2 + 0.587 * 0.4 + 0.114 * 0.8, 1e-15);
+  EXPECT_TRUE(std::isnan(floats->cloud.intensities[1]));
+  EXPECT_EQ(floats->cloud.intensities[2], 1.0);
+  const StatusOr<LoadedCloud> shorts = Load(PointsPly(colors("ushort"), {"0 0 0 65535 0 0"}));
+  ASSERT_TRUE(shorts.ok()) << shorts.status().message();
+  EXPECT_NEAR(shorts->cloud.intensities[0], 0.299, 1e-15);
+}
+
+TEST_F(CloudIo, HasNoBrightnessWithoutAllThreeColors) {
+  const StatusOr<LoadedCloud> loaded =
+      Load(PointsPly("property float x\nproperty float y\nproperty float z\nproperty uchar red\n"
+                     "property uchar green\n",
+                     {"0 0 0 1 2"}));
+  ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+  EXPECT_TRUE(loaded->cloud.intensities.empty());
+}
+
 TEST_F(CloudIo, FansPolygonsOfAnySizeInEveryEncoding) {
   for (const Encoding encoding : {Encoding::kAscii, Encoding::kLittle, Encoding::kBig}) {
     for (const bool crlf : {false, true}) {

@@ -21,6 +21,8 @@ Status RegisterPointToPlane(EnergyRegistry* registry);
 Status RegisterPointToPoint(EnergyRegistry* registry);
 Status RegisterLandmark(EnergyRegistry* registry);
 Status RegisterPinnedVertex(EnergyRegistry* registry);
+Status RegisterSymmetricPointToPlane(EnergyRegistry* registry);
+Status RegisterPhotometric(EnergyRegistry* registry);
 
 }  // namespace ceres_ed
 

@@ -1,0 +1,29 @@
+// Warped points come to where the target is as bright as they are.
+#include <ceres_ed/energy/catalogue/catalogue.h>
+#include <ceres_ed/energy/point_energy.h>
+
+#include <optional>
+
+#include <cost_functions/photometric_cost.h>
+
+namespace ceres_ed {
+
+Status RegisterPhotometric(EnergyRegistry* registry) {
+  EnergyInfo info;
+  info.name = "photometric";
+  info.summary =
+      "warped points come to where the target is as bright as they are (both clouds need colours)";
+  info.equation = "I_t + g . (v~ - v^) - I_s (Park et al. 2017)";
+  info.unit = "intensity";
+  info.kind = EnergyKind::kObservation;
+  return registry->Register(info, [](const ParameterValues&) {
+    return ForEachDetailedMatch([](const Correspondence& c,
+                                   const MatchDetail& detail) -> std::optional<PhotometricCost> {
+      if (!detail.HasIntensities()) return std::nullopt;
+      return PhotometricCost(
+          c.target, detail.target_intensity, detail.intensity_gradient, detail.source_intensity);
+    });
+  });
+}
+
+}  // namespace ceres_ed

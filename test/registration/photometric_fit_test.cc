@@ -1,0 +1,104 @@
+// A textured sheet that has slid along itself: only its brightness tells.
+#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/registration/fit.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+namespace ceres_ed {
+namespace {
+
+// How far the source has to go: less than a quarter of a wave of the texture.
+const Eigen::Vector3d kSlide(0.06, -0.04, 0.0);
+constexpr double kWaveNumber = 2.0 * M_PI / 0.8;
+constexpr double kSpacing = 0.025;
+
+double Texture(const Eigen::Vector3d& place) {
+  return 0.5 + 0.2 * std::sin(kWaveNumber * place.x()) + 0.2 * std::cos(kWaveNumber * place.y());
+}
+
+// A flat square around `center`, with the texture as it is at `look` off each point.
+PointCloud MakeSheet(int side, const Eigen::Vector3d& center, const Eigen::Vector3d& look) {
+  PointCloud sheet;
+  const double half = 0.5 * kSpacing * (side - 1);
+  for (int r = 0; r < side; ++r) {
+    for (int c = 0; c < side; ++c) {
+      sheet.points.push_back(center +
+                             Eigen::Vector3d(kSpacing * c - half, kSpacing * r - half, 0.0));
+      sheet.intensities.push_back(Texture(sheet.points.back() + look));
+    }
+  }
+  for (int r = 0; r + 1 < side; ++r) {
+    for (int c = 0; c + 1 < side; ++c) {
+      const int a = r * side + c;
+      sheet.triangles.push_back({a, a + 1, a + side});
+      sheet.triangles.push_back({a + 1, a + side + 1, a + side});
+    }
+  }
+  return sheet;
+}
+
+FitInput SlidSheet() {
+  FitInput input;
+  input.source = MakeSheet(41, {0.007, 0.011, 0.0}, kSlide);
+  input.target = MakeSheet(81, {0.0, 0.0, 0.0}, Eigen::Vector3d::Zero());
+  return input;
+}
+
+struct Motion {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  // Of a point from where it belongs.
+  double largest_error = 0.0;
+};
+
+Motion FitMotion(const FitInput& input, bool photometric) {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  FitOptions options;
+  options.finish = false;
+  if (photometric) options.extra_energies = {{"photometric", 1.0, {}, {}}};
+  const StatusOr<FitResult> result = Fit(input, options, registry);
+  EXPECT_TRUE(result.ok() && result->IsUsable());
+  Motion motion;
+  for (std::size_t p = 0; p < input.source.size(); ++p) {
+    const Eigen::Vector3d step = result->points[p] - input.source.points[p];
+    motion.mean += step / static_cast<double>(input.source.size());
+    motion.largest_error = std::max(motion.largest_error, (step - kSlide).norm());
+  }
+  return motion;
+}
+
+// What is linear between points is off by the texture's curvature: spacing^2 * wave number / 8 as a
+// distance. The fit stands still within 2e-4 of the source's diagonal.
+constexpr double kTolerance = kSpacing * kSpacing * kWaveNumber / 8.0 + 2e-4 * 1.4142135623730951;
+
+TEST(PhotometricFit, RecoversASlideThatDistancesDoNotSee) {
+  const FitInput input = SlidSheet();
+  const Motion with = FitMotion(input, true);
+  EXPECT_LT((with.mean - kSlide).norm(), kTolerance);
+  EXPECT_LT(with.largest_error, 0.1 * kSlide.norm());
+  const Motion without = FitMotion(input, false);
+  EXPECT_LT(without.mean.norm(), 0.05 * kSlide.norm());
+}
+
+TEST(PhotometricFit, DoesSoOnBarePoints) {
+  FitInput input = SlidSheet();
+  input.source.triangles.clear();
+  input.target.triangles.clear();
+  const Motion with = FitMotion(input, true);
+  EXPECT_LT((with.mean - kSlide).norm(), 0.05 * kSlide.norm());
+}
+
+TEST(PhotometricFit, ChangesNothingWhereOneCloudHasNoBrightness) {
+  FitInput input = SlidSheet();
+  input.target.intensities.clear();
+  const Motion with = FitMotion(input, true);
+  const Motion without = FitMotion(input, false);
+  EXPECT_EQ(with.mean, without.mean);
+}
+
+}  // namespace
+}  // namespace ceres_ed
