@@ -6,6 +6,8 @@
 #include <ceres_ed/io/point_list_io.h>
 #include <ceres_ed/io/warp_io.h>
 
+#include <cmath>
+#include <cstddef>
 #include <memory>
 #include <utility>
 
@@ -65,6 +67,25 @@ void Append(const std::vector<std::string>& from, std::vector<std::string>* to) 
   to->insert(to->end(), from.begin(), from.end());
 }
 
+// The source's file with a property std_dev; kUnknown where nothing is known of a vertex, for not
+// every reader of ASCII knows "nan".
+PlyDocument WithDeviations(const FitFiles& files, const std::vector<double>& std_dev) {
+  constexpr double kUnknown = -1.0;
+  PlyDocument document = files.source_document;
+  PlyElement* const vertices = document.Find("vertex");
+  std::vector<double> values(vertices->count, kUnknown);
+  for (std::size_t i = 0; i < std_dev.size(); ++i) {
+    if (std::isfinite(std_dev[i])) values[files.vertex_of_point[i]] = std_dev[i];
+  }
+  PlyProperty property = MakePlyScalar("std_dev", PlyType::kFloat32, std::move(values));
+  if (PlyProperty* const there = vertices->Find("std_dev"); there != nullptr) {
+    *there = std::move(property);
+  } else {
+    vertices->properties.push_back(std::move(property));
+  }
+  return document;
+}
+
 }  // namespace
 
 StatusOr<FitFiles> LoadFitFiles(const std::vector<std::string>& arguments,
@@ -108,11 +129,13 @@ Status CheckOutputs(const FitSettings& settings) {
 }
 
 Status WriteFitFiles(const FitSettings& settings, const FitFiles& files, const FitResult& result) {
-  Status status = SaveCloud(settings.output,
-                            files.source_document,
-                            files.vertex_of_point,
-                            result.points,
-                            result.normals.empty() ? nullptr : &result.normals);
+  const bool has_deviations = !result.uncertainty.std_dev.empty();
+  Status status = SaveCloud(
+      settings.output,
+      has_deviations ? WithDeviations(files, result.uncertainty.std_dev) : files.source_document,
+      files.vertex_of_point,
+      result.points,
+      result.normals.empty() ? nullptr : &result.normals);
   if (status.ok() && !settings.warp.empty()) status = WriteWarp(settings.warp, result.warp);
   if (!status.ok() || settings.graph.empty()) return status;
   GraphWriteOptions options;

@@ -94,6 +94,9 @@ DEFINE_double(max_angle_deg,
               "no match whose normals differ by more, degrees");
 DEFINE_int32(max_samples, Defaults().max_samples, "points of each surface that are matched");
 DEFINE_bool(finish, Defaults().finish, "move every point onto TARGET in the end");
+DEFINE_bool(covariance,
+            Defaults().covariance,
+            "write std_dev, source units, of each vertex (-1: nothing says)");
 DEFINE_string(energy, "", "more energies, NAME[:param=value,...];... (see ed_list_energies)");
 DEFINE_string(plugin, "", "shared object with more energies; several with ; between them");
 DEFINE_int32(threads, Defaults().num_threads, "changes the time, not the result");
@@ -179,6 +182,7 @@ void ReadNumbers(FitOptions* options) {
   options->matching.max_angle_deg = FLAGS_max_angle_deg;
   options->max_samples = FLAGS_max_samples;
   options->finish = FLAGS_finish;
+  options->covariance = FLAGS_covariance;
   options->num_threads = FLAGS_threads;
   if (FLAGS_time_limit_s > 0.0) options->time_limit_s = FLAGS_time_limit_s;
 }

@@ -71,6 +71,33 @@ ordered_json EnergyReport(const FitResult& result) {
           {"terms", terms}};
 }
 
+// Null where it was not asked for, or could not be had.
+ordered_json CovarianceReport(const FitUncertainty& uncertainty) {
+  if (uncertainty.std_dev.empty()) return nullptr;
+  std::vector<double> known;
+  for (const double deviation : uncertainty.std_dev) {
+    if (std::isfinite(deviation)) known.push_back(deviation);
+  }
+  ordered_json report = ordered_json::object();
+  if (!known.empty()) {
+    std::sort(known.begin(), known.end());
+    double sum = 0.0;
+    for (const double deviation : known) sum += deviation;
+    const auto quantile = [&known](double share) {
+      return known[static_cast<std::size_t>(share * static_cast<double>(known.size() - 1))];
+    };
+    report = {{"mean", sum / static_cast<double>(known.size())},
+              {"median", quantile(0.5)},
+              {"p95", quantile(0.95)},
+              {"max", known.back()}};
+  }
+  report["undetermined_points"] = uncertainty.std_dev.size() - known.size();
+  report["undetermined_nodes"] = uncertainty.undetermined_nodes;
+  report["variance_factor"] = uncertainty.variance_factor;
+  report["time_s"] = uncertainty.time;
+  return report;
+}
+
 ordered_json RigidReport(const Similarity& rigid) {
   constexpr double kDegreesPerRadian = 180.0 / M_PI;
   const double angle = Eigen::AngleAxisd(rigid.rotation).angle();
@@ -170,6 +197,7 @@ ordered_json FitReport(const FitRun& run) {
       {"landmarks", {{"count", landmarks.count}, {"rms", landmarks.rms}, {"max", landmarks.max}}},
       {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
       {"rigid", RigidReport(result.rigid)},
+      {"covariance", CovarianceReport(result.uncertainty)},
       {"displacement", DisplacementReport(run)},
       {"time_s", TimeReport(run)},
       {"threads", run.settings->options.num_threads},

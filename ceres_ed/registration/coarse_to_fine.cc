@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/coarse_to_fine.h"
 
 #include <ceres_ed/registration/fit_problem.h>
+#include <ceres_ed/registration/fit_uncertainty.h>
 #include <ceres_ed/registration/moving_samples.h>
 
 #include <algorithm>
@@ -69,6 +70,13 @@ Status CoarseToFine::RunLevel(
   Status status = problem.AddEnergies(*fit_.options, *fit_.registry, fit_.landmarks, fit_.fixed);
   if (!status.ok()) return status;
   RunNonrigidLoop(fit_, graph, plan, &problem, state, result);
+  if (fit_.options->covariance) {
+    if (EndedEarly(*result)) {
+      DropUncertainty("the fit ended early", result);
+    } else if (plan.is_last) {
+      MeasureUncertainty(fit_, graph, problem, *state, result);
+    }
+  }
   return Status::Ok();
 }
 
@@ -146,6 +154,7 @@ void CoarseToFine::KeepTheBetter(FitResult* result) {
           << " %): the result is the rigid one; are these two states of one body?";
   result->warnings.push_back(message.str());
   result->rigid_only = true;
+  if (fit_.options->covariance) DropUncertainty("the deformation was left out", result);
   state_ = rest;
   result->final_energy = result->initial_energy;
 }

@@ -260,6 +260,8 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
   result_.matches.rms_plane /= unit_from_target_.scale;
   result_.matches.rms_point /= unit_from_target_.scale;
   result_.matches.robust_distance /= unit_from_target_.scale;
+  const double unit_from_source = unit_from_target_.scale * result_.rigid.scale;
+  for (double& deviation : result_.uncertainty.std_dev) deviation /= unit_from_source;
 }
 
 void Fitter::WarnAboutReflections(const DeformationState& state) {

@@ -122,6 +122,8 @@ struct FitOptions {
   FinishOptions finish_options;
   // Lay faces flat again that the fit folded over.
   bool unfold = true;
+  // Work out how well every source point is determined (FitResult::uncertainty).
+  bool covariance = false;
   // The result doesn't depend on it, >= 1.
   int num_threads = 1;
   // Wall time of the whole fit, seconds, > 0.
@@ -145,6 +147,26 @@ struct FitTimes {
   double level2 = 0.0;
   // Of every vertex, unfolding included.
   double finish = 0.0;
+};
+
+// How well the data determine the warp, by the residuals of the last round and what they leave:
+//   Cov(p) = s0^2 J_p (J^T J)^-1 J_p^T
+// with J the Jacobian of all weighted residuals, J_p that of a warped point (solver/
+// state_covariance.h) and s0^2 the variance factor of the data (solver/variance_factor.h).
+// It holds on these terms: the correspondences are right, their errors independent; the rigid
+// placement is known; E_rot and E_reg are Gaussian priors with their last weights, relative to the
+// data; the finish and unfolding add nothing.
+struct FitUncertainty {
+  // Root of the trace of Cov(p), one a source point, in the source's unit; NaN where a node that
+  // carries the point is undetermined. Empty where it was not asked for, or could not be had: a
+  // warning says why.
+  std::vector<double> std_dev;
+  // s0^2, of residuals as the objective weighs them, without units.
+  double variance_factor = 0.0;
+  // Nodes of the warp in a direction of which nothing says anything, ascending.
+  std::vector<int> undetermined_nodes;
+  // Seconds.
+  double time = 0.0;
 };
 
 // The outcome of a fit. It starts out failed.
@@ -175,6 +197,7 @@ struct FitResult {
   double noise = 0.0;
   // Faces that were folded over and were laid flat in the end.
   int unfolded = 0;
+  FitUncertainty uncertainty;
   FitTimes times;
   std::vector<std::string> warnings;
 

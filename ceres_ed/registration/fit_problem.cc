@@ -125,6 +125,22 @@ Status FitProblem::AddEnergies(const FitOptions& options,
   return Status::Ok();
 }
 
+std::vector<int> FitProblem::MeasuredTerms() const {
+  const auto is_active = [&](const Term& term) {
+    return builder_.weight(term.index) > 0.0 && builder_.NumResidualBlocks(term.index) > 0;
+  };
+  bool seen_whole = false;
+  for (const Term& term : terms_) {
+    if (term.rule.adaptive_loss && !term.rule.thinned && is_active(term)) seen_whole = true;
+  }
+  std::vector<int> measured;
+  for (const Term& term : terms_) {
+    if (term.energy->kind() != EnergyKind::kObservation || !is_active(term)) continue;
+    if (!term.rule.thinned || !seen_whole) measured.push_back(term.index);
+  }
+  return measured;
+}
+
 void FitProblem::SetStiffness(double stiffness) {
   stiffness_ = stiffness;
   for (const Term& term : terms_) {

@@ -33,6 +33,10 @@ class FitProblem {
 
   const ProblemBuilder& builder() const { return builder_; }
 
+  // The terms of what was measured, each measurement once: observations, but for the few pairs that
+  // point-to-point sees a second time.
+  std::vector<int> MeasuredTerms() const;
+
  private:
   // How a term of the fit is weighed.
   struct TermRule {

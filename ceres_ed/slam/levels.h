@@ -34,9 +34,9 @@ struct MapObservation {
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
   // Of the observed surface, camera frame, unit length.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  double weight = 1.0;
   // Of the map, as it is warped now, camera frame, unit length; zero where nobody asks for it.
   Eigen::Vector3d source_normal = Eigen::Vector3d::Zero();
-  double weight = 1.0;
 };
 
 // What a frame has to say of the map.

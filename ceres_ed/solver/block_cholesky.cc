@@ -125,6 +125,10 @@ Eigen::MatrixXd BlockCholesky::TrailingFactor() const {
   return trailing;
 }
 
+SelectedInverse BlockCholesky::Invert() const {
+  return SelectedInverse(impl_->structure, impl_->vertices, impl_->factor);
+}
+
 double BlockCholesky::NumOperations() const { return impl_->factor.layout().operations; }
 
 std::size_t BlockCholesky::NumValues() const { return impl_->factor.layout().panel_size; }

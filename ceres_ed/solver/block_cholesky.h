@@ -4,6 +4,7 @@
 
 #include <ceres_ed/solver/block_structure.h>
 #include <ceres_ed/solver/double_buffer.h>
+#include <ceres_ed/solver/selected_inverse.h>
 
 #include <cstddef>
 #include <memory>
@@ -45,6 +46,10 @@ class BlockCholesky {
   // The rows and columns of L that belong to the trailing blocks: the Cholesky factor of their
   // Schur complement (Eq. 20). Lower triangle, zeros above it.
   Eigen::MatrixXd TrailingFactor() const;
+
+  // The inverse where the factor may be non-zero, with the last successful factor of a structure
+  // without dual blocks. This must outlive it.
+  SelectedInverse Invert() const;
 
   // Multiplications that one factorisation takes.
   double NumOperations() const;

@@ -33,6 +33,18 @@ class MultifrontalFactor {
   // The last front's own rows and columns of L; zeros above the diagonal.
   Eigen::MatrixXd LastTriangle() const;
 
+  // L11 (of which the lower triangle counts) and L21 of a front without dual columns.
+  using PanelView = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+  PanelView OwnColumns(const FrontLayout& front) const {
+    return {Panel(front), front.width, front.width, Eigen::OuterStride<>(front.panel_stride)};
+  }
+  PanelView Below(const FrontLayout& front) const {
+    return {Panel(front) + front.below_row,
+            front.update_rows,
+            front.width,
+            Eigen::OuterStride<>(front.panel_stride)};
+  }
+
  private:
   bool FactorizeFront(int f,
                       const double* values,

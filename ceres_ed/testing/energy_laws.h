@@ -48,8 +48,8 @@ struct EnergyClaims {
 //     names are snake_case, once each and none of weight, loss, loss_width, each with a unit, a doc
 //     and its default in its range;
 //   - every parameter arrives as it was given: both ends of its range create the energy, beyond
-//     them, a fraction for a whole number, and an unknown parameter are refused;
-//   - the energy's kind is the registered one;
+//     them, a fraction for a whole number, and an unknown parameter are refused; each is asked for,
+//     and the term's kind is the registered one;
 //   - with a camera or without one it adds residuals; each touches at least one block (node or
 //     camera), none twice, all of them there, with sizes that fit and a weight >= 0; none touches a
 //     camera that isn't there;

@@ -116,7 +116,8 @@ class SceneProblem {
     const std::vector<Eigen::Vector3d> normals = ComputeVertexNormals(truth);
     for (std::size_t p = 0; p < scene.rest.size(); ++p) {
       if (scene.visible[p] == 0) continue;
-      correspondences_.push_back({static_cast<int>(p), scene.truth[p], normals[p], 1.0});
+      correspondences_.push_back(
+          {static_cast<int>(p), /*detail=*/-1, scene.truth[p], normals[p], 1.0});
     }
     Add("rotation", 1.0);
     Add("regularization", 10.0);

@@ -176,7 +176,7 @@ TEST(Levels, HaveNothingToDoInLevelTwoWhenAllIsSeen) {
   const auto levels = MakeLevels(LevelsOptions());
   std::vector<Correspondence> all;
   for (int p = 0; p < static_cast<int>(scene.problem.points.size()); ++p) {
-    all.push_back({p, scene.problem.points[p], Eigen::Vector3d::UnitZ(), 1.0});
+    all.push_back({p, /*detail=*/-1, scene.problem.points[p], Eigen::Vector3d::UnitZ(), 1.0});
   }
   scene.observations.planes = scene.Take(all);
   EXPECT_EQ(levels->SolveLevelOne(scene.observations, nullptr, &scene.map).point_relevant, 14 * 4);

@@ -70,7 +70,8 @@ std::vector<std::string> Check(const EnergyInfo& info,
   const EnergyKind kind = EnergyKind::kPrior;
   EXPECT_TRUE(registry
                   .Register(info,
-                            [=](const ParameterValues&) {
+                            [=](const ParameterValues& values) {
+                              for (const EnergyParameter& p : info.parameters) values.Get(p.name);
                               return std::make_unique<FunctionEnergy>(kind, add);
                             })
                   .ok());
@@ -100,7 +101,8 @@ TEST(CheckEnergyLaws, FindsAnIncompleteDescription) {
 TEST(CheckEnergyLaws, FindsAnEnergyOfAnotherKind) {
   EnergyInfo info = AnchorInfo();
   info.kind = EnergyKind::kObservation;
-  EXPECT_THAT(Check(info, AddAnchors), Contains(HasSubstr("its kind is not the registered one")));
+  EXPECT_THAT(Check(info, AddAnchors),
+              Contains(HasSubstr("its term is not of the kind that it is registered as")));
 }
 
 TEST(CheckEnergyLaws, FindsAnEnergyThatAddsNothing) {

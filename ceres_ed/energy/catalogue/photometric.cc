@@ -1,4 +1,8 @@
 // Warped points come to where the target is as bright as they are.
+//
+// Brightness is linear around a matched point: a pair that is apart by more than a quarter of a
+// wave of the texture misleads. So do pairs beyond the border of bare points, where borders aren't
+// known: bound MatchingOptions::max_distance there, or give the energy a robust loss.
 #include <ceres_ed/energy/catalogue/catalogue.h>
 #include <ceres_ed/energy/point_energy.h>
 
