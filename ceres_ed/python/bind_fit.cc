@@ -154,6 +154,17 @@ void BindArrays(ResultClass* result) {
           },
           "(N, 3) float64 of the fitted source, a view; None where the source has none.")
       .def_property_readonly(
+          "std_dev",
+          [](const py::object& self) -> py::object {
+            std::vector<double>& deviations =
+                self.cast<FittedSurface&>().result.uncertainty.std_dev;
+            if (deviations.empty()) return py::none();
+            return py::array_t<double>(
+                static_cast<py::ssize_t>(deviations.size()), deviations.data(), self);
+          },
+          "(N,) float64, standard deviation of each point in the source's unit, a view; NaN where\n"
+          "nothing says where it is. None without covariance=True.")
+      .def_property_readonly(
           "triangles",
           [](const py::object& self) {
             return ViewOrNone(self.cast<FittedSurface&>().input.source.triangles, self);

@@ -91,6 +91,8 @@ void AddFlags(OptionsClass<O>* options) {
           [](O & o) -> auto& { return o.finish; },
           "Move every point onto the target in the end.")
       .Add(
+          "covariance", [](O & o) -> auto& { return o.covariance; }, "Work out FitResult.std_dev.")
+      .Add(
           "threads",
           [](O & o) -> auto& { return o.num_threads; },
           "Changes the time, not the result, >= 1.")

@@ -27,7 +27,10 @@ if(CERES_ED_BUILD_APPS)
 endif()
 
 install(DIRECTORY ceres_ed cost_functions DESTINATION ${ceres_ed_headers_dir} COMPONENT dev
-        FILES_MATCHING PATTERN "*.h")
+        FILES_MATCHING
+        PATTERN "*.h"
+        # The sources of the Python module.
+        PATTERN "ceres_ed/python" EXCLUDE)
 install(FILES ${PROJECT_BINARY_DIR}/include/ceres_ed/version.h
         DESTINATION ${ceres_ed_headers_dir}/ceres_ed COMPONENT dev)
 

@@ -72,9 +72,8 @@ TEST(ProblemBuilder, SaysWhichResidualDoesNotFit) {
             odd + "is on node 18, which isn't there (18 nodes, no camera)");
   EXPECT_EQ(collect({BlockRef::Node(0), BlockRef::Node(1)}, 1.0),
             odd + "has 2 blocks, its cost function takes 1");
-  EXPECT_EQ(
-      collect({BlockRef::CameraRotation()}, 1.0),
-      odd + "has the camera's rotation as block 0 where its cost function takes 12 numbers");
+  EXPECT_EQ(collect({BlockRef::CameraRotation()}, 1.0),
+            odd + "has the camera's rotation as block 0 where its cost function takes 12 numbers");
   EXPECT_EQ(collect({BlockRef::Node(0)}, -1.0),
             odd + "has weight -1.000000, expected finite and >= 0");
   EXPECT_THAT(collect({BlockRef::Node(0)}, std::nan("")), HasSubstr("has weight nan"));

@@ -63,6 +63,19 @@ def test_flags_are_options(data, run_app, tmp_path):
     assert result.warp.finish_points is None
 
 
+def test_standard_deviations_are_those_of_ed_fit(data, plane, fitted, run_app, tmp_path):
+    assert fitted.std_dev is None
+    pair = data / "plane_bumps"
+    run_app("ed_fit", pair / "source.ply", pair / "target.ply", f"--output={tmp_path / 'app.ply'}",
+            f"--report={tmp_path / 'report.json'}", "--quiet", "--covariance")
+    known = ceres_ed.fit(*plane, covariance=True)
+    np.testing.assert_array_equal(known.points, fitted.points)
+    assert known.std_dev.shape == (len(plane[0]),)
+    report = json.loads((tmp_path / "report.json").read_text())["covariance"]
+    assert np.nanmean(known.std_dev) == pytest.approx(report["mean"], rel=1e-12)
+    assert np.nanmax(known.std_dev) == report["max"]
+
+
 def test_the_number_of_threads_changes_nothing(plane, fitted):
     again = ceres_ed.fit(*plane, threads=2)
     np.testing.assert_array_equal(again.points, fitted.points)

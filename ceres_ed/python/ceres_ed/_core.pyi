@@ -201,6 +201,7 @@ class FitOptions:
     max_angle_deg: float
     max_samples: int
     finish: bool
+    covariance: bool
     threads: int
     time_limit_s: float
     w_landmark: float
@@ -225,7 +226,8 @@ class FitOptions:
             node_spacing: float = ..., neighbors: int = ..., w_rot: float = ...,
             w_reg: float = ..., w_data: float = ..., loss: Loss = ..., max_distance: float = ...,
             max_angle_deg: float = ..., max_samples: int = ..., finish: bool = ...,
-            threads: int = ..., time_limit_s: float = ..., w_landmark: float = ...,
+            covariance: bool = ..., threads: int = ..., time_limit_s: float = ...,
+            w_landmark: float = ...,
             w_fixed: float = ..., point_to_point_share: float = ..., target_nodes: int = ...,
             loss_width: float = ..., denoise: bool = ..., unfold: bool = ..., levels: int = ...,
             initial_stiffness: float = ..., final_stiffness: float = ...,
@@ -254,6 +256,8 @@ class FitResult:
     def points(self) -> NDArray[np.float64]: ...
     @property
     def normals(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def std_dev(self) -> Optional[NDArray[np.float64]]: ...
     @property
     def triangles(self) -> Optional[NDArray[np.int32]]: ...
     @property
@@ -486,7 +490,8 @@ def fit(
         rigid_scale: bool = ..., node_spacing: float = ..., neighbors: int = ...,
         w_rot: float = ..., w_reg: float = ..., w_data: float = ..., loss: Loss = ...,
         max_distance: float = ..., max_angle_deg: float = ..., max_samples: int = ...,
-        finish: bool = ..., threads: int = ..., time_limit_s: float = ..., w_landmark: float = ...,
+        finish: bool = ..., covariance: bool = ..., threads: int = ...,
+        time_limit_s: float = ..., w_landmark: float = ...,
         w_fixed: float = ..., point_to_point_share: float = ..., target_nodes: int = ...,
         loss_width: float = ..., denoise: bool = ..., unfold: bool = ..., levels: int = ...,
         initial_stiffness: float = ..., final_stiffness: float = ..., noise_stiffness: float = ...,
