@@ -56,24 +56,24 @@ say "the programs and the library they need"
 apt_get update >/dev/null
 install_packages 'libceres-ed[0-9]*.deb' 'ceres-ed-tools_*.deb'
 in_root ed_fit --version
-in_root sh -c 'cd /tmp && ceres_ed_demo'
+in_root sh -c 'cd /root && ceres_ed_demo'
 
 say "the example project, with CMake"
-cp -r apps/examples/consumer "$root/tmp/consumer"
+cp -r apps/examples/consumer "$root/root/consumer"
 install_packages 'libceres-ed-dev_*.deb'
 apt_get install --no-install-recommends cmake make g++ pkg-config >/dev/null
-in_root cmake -S /tmp/consumer -B /tmp/consumer/build -DCMAKE_BUILD_TYPE=Release
-in_root cmake --build /tmp/consumer/build
-in_root /tmp/consumer/build/consumer
+in_root cmake -S /root/consumer -B /root/consumer/build -DCMAKE_BUILD_TYPE=Release
+in_root cmake --build /root/consumer/build
+in_root /root/consumer/build/consumer
 say "and with pkg-config"
 # shellcheck disable=SC2016  # expands in there
-in_root sh -c 'g++ /tmp/consumer/main.cc -o /tmp/by_hand $(pkg-config --cflags --libs ceres_ed)'
-in_root /tmp/by_hand
+in_root sh -c 'g++ /root/consumer/main.cc -o /root/by_hand $(pkg-config --cflags --libs ceres_ed)'
+in_root /root/by_hand
 say "its plugin"
-in_root ed_list_energies --plugin=/tmp/consumer/build/floor.so
+in_root ed_list_energies --plugin=/root/consumer/build/floor.so
 pair=/usr/share/ceres_ed/data/plane_bumps
-in_root ed_fit $pair/source.ply $pair/target.ply --output=/tmp/floored.ply --finish=false \
-  --plugin=/tmp/consumer/build/floor.so --energy=floor:weight=1e4,height=-0.01
+in_root ed_fit $pair/source.ply $pair/target.ply --output=/root/floored.ply --finish=false \
+  --plugin=/root/consumer/build/floor.so --energy=floor:weight=1e4,height=-0.01
 
 say "and gone again"
 apt_get remove --purge 'libceres-ed*' ceres-ed-tools >/dev/null

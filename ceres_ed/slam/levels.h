@@ -19,6 +19,7 @@
 #include <memory>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -159,9 +160,9 @@ class Levels {
   // The nodes that the last Level I moved, and its PR nodes, by number.
   const NodeSet& moved_nodes() const { return moved_; }
   const NodeSet& point_relevant() const { return point_relevant_; }
-  // What made the last level that failed fail, where it was a residual: energy, plugin and
-  // residual.
-  const std::string& fault() const { return fault_; }
+  // Returns what made the last level that failed since the last call fail, where it was a residual:
+  // energy, plugin and residual. Empty where there was none.
+  std::string TakeFault() { return std::exchange(fault_, {}); }
   // Energies of LevelsOptions::energies that have not added a residual yet.
   std::vector<std::string> IdleEnergies() const;
   // For what changes outside of the levels.

@@ -146,7 +146,7 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
   levels_->BeginFrame();
   const FrameObservations observations = FollowSeen(surface, report);
   FollowHidden(catch_up, report);
-  report->fault = levels_->fault();
+  report->fault = levels_->TakeFault();
   if (batch_ != nullptr && report->number % options_.verify_every == 0) {
     Verify(observations, report);
   }

@@ -1,5 +1,6 @@
 // Energies that are there for the asking: laplacian, pinned_vertex, temporal_smoothness, volume.
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/slam/slam.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -172,6 +174,37 @@ TEST(TemporalSmoothnessEnergy, SlowsNodesDown) {
   EXPECT_GT(free, 5e-4);
   EXPECT_LT(slow, 0.8 * free);
   EXPECT_LT(still, 1e-3 * free);
+}
+
+TEST(TrackerFault, IsToldInItsFrameAlone) {
+  bool fails = false;
+  EnergyRegistry registry = Registry();
+  EnergyInfo info{"moody", "a test", "-", "-", EnergyKind::kPrior, {}, ""};
+  const Status status = registry.Register(info, [&fails](const ParameterValues&) {
+    return MakeEnergy(EnergyKind::kPrior, [&fails](const EnergyContext&, ResidualSink*) {
+      if (fails) throw std::runtime_error("not today");
+    });
+  });
+  ASSERT_TRUE(status.ok()) << status.message();
+  SlamOptions options;
+  options.nodes_in_view = 40;
+  options.levels.energies = {Spec("moody", 1.0)};
+  auto slam = DeformableSlam::Create(BumpyCamera(), options, registry);
+  ASSERT_TRUE(slam.ok()) << slam.status().message();
+  const BumpyScene scene;
+  for (int frame = 0; frame < 4; ++frame) {
+    fails = frame == 2;
+    const DepthImage depth = scene.RenderDepth(frame);
+    SlamFrame input;
+    input.number = frame;
+    input.depth = &depth;
+    const FrameReport report = (*slam)->Process(input);
+    if (fails) {
+      EXPECT_THAT(report.fault, HasSubstr("energy 'moody': after 0 residuals it threw: not today"));
+    } else {
+      EXPECT_EQ(report.fault, "") << frame;
+    }
+  }
 }
 
 // A box of 1 x 2 x 3 about `centre`; `welded`: of 8 vertices, else of three a triangle.
