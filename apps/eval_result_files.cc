@@ -2,7 +2,7 @@
 
 #include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/cloud_io.h>
-#include <ceres_ed/io/vertex_columns.h>
+#include <ceres_ed/io/mesh/vertex_columns.h>
 
 #include <cmath>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #ifndef CERES_ED_APPS_EVAL_RESULT_FILES_H_
 #define CERES_ED_APPS_EVAL_RESULT_FILES_H_
 
+#include <ceres_ed/evaluation/live_snapshot.h>
 #include <ceres_ed/graph/deformation_state.h>
-#include <ceres_ed/slam/live_snapshot.h>
 #include <ceres_ed/util/status.h>
 
 #include <map>

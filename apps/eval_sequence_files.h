@@ -2,9 +2,9 @@
 #ifndef CERES_ED_APPS_EVAL_SEQUENCE_FILES_H_
 #define CERES_ED_APPS_EVAL_SEQUENCE_FILES_H_
 
+#include <ceres_ed/evaluation/scene_truth.h>
+#include <ceres_ed/evaluation/track_following.h>
 #include <ceres_ed/io/camera_io.h>
-#include <ceres_ed/slam/scene_truth.h>
-#include <ceres_ed/slam/track_following.h>
 #include <ceres_ed/util/status.h>
 
 #include <map>

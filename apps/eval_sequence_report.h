@@ -2,9 +2,9 @@
 #ifndef CERES_ED_APPS_EVAL_SEQUENCE_REPORT_H_
 #define CERES_ED_APPS_EVAL_SEQUENCE_REPORT_H_
 
-#include <ceres_ed/slam/sequence_evaluation.h>
-#include <ceres_ed/slam/track_following.h>
-#include <ceres_ed/slam/trajectory_evaluation.h>
+#include <ceres_ed/evaluation/sequence_evaluation.h>
+#include <ceres_ed/evaluation/track_following.h>
+#include <ceres_ed/evaluation/trajectory_evaluation.h>
 
 #include <optional>
 #include <string>

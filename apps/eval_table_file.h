@@ -2,8 +2,8 @@
 #ifndef CERES_ED_APPS_EVAL_TABLE_FILE_H_
 #define CERES_ED_APPS_EVAL_TABLE_FILE_H_
 
-#include <ceres_ed/slam/sequence_evaluation.h>
-#include <ceres_ed/slam/track_following.h>
+#include <ceres_ed/evaluation/sequence_evaluation.h>
+#include <ceres_ed/evaluation/track_following.h>
 #include <ceres_ed/util/status.h>
 
 #include <map>

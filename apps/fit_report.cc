@@ -1,6 +1,6 @@
 #include "apps/fit_report.h"
 
-#include <ceres_ed/solver/linear_algebra_backend.h>
+#include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 #include <ceres_ed/version.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "apps/simulate_run.h"
 
 #include <ceres_ed/io/sequence/native_writer.h>
-#include <ceres_ed/testing/synthetic_sequences.h>
+#include <ceres_ed/simulation/sequences.h>
 #include <ceres_ed/util/timer.h>
 #include <ceres_ed/version.h>
 

@@ -1,6 +1,7 @@
 #include "apps/slam_frames.h"
 
 #include <ceres_ed/io/text_rows.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,9 @@
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/graph_io.h>
-#include <ceres_ed/io/live_cloud_io.h>
+#include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/io/text_rows.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 
 #include <algorithm>
 #include <cctype>

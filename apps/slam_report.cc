@@ -1,5 +1,6 @@
 #include "apps/slam_report.h"
 
+#include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/version.h>
 
 #include <algorithm>

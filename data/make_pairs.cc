@@ -1,10 +1,10 @@
 // Writes the sample pairs: make_pairs DIRECTORY [PAIR ...]. See README.md beside this file.
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/geometry/similarity.h>
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/cloud_io.h>
-#include <ceres_ed/registration/evaluation.h>
-#include <ceres_ed/testing/synthetic_pairs.h>
+#include <ceres_ed/simulation/pairs.h>
 
 #include <algorithm>
 #include <cmath>

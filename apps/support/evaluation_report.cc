@@ -1,7 +1,7 @@
 #include "apps/support/evaluation_report.h"
 
 #include <ceres_ed/io/cloud_io.h>
-#include <ceres_ed/io/ply_document.h>
+#include <ceres_ed/io/mesh/ply_document.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 #ifndef CERES_ED_APPS_SUPPORT_EVALUATION_REPORT_H_
 #define CERES_ED_APPS_SUPPORT_EVALUATION_REPORT_H_
 
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/point_cloud.h>
-#include <ceres_ed/registration/evaluation.h>
 #include <ceres_ed/util/status.h>
 
 #include <string>

@@ -1,7 +1,7 @@
 #include "apps/support/report.h"
 
 #include <ceres_ed/io/atomic_file.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
+#include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 
 #include <string>
 

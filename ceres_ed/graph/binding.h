@@ -5,6 +5,7 @@
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/topology.h>
 #include <ceres_ed/graph/deformation_graph.h>
+#include <ceres_ed/graph/graph_options.h>
 #include <ceres_ed/graph/skinning.h>
 #include <ceres_ed/util/status.h>
 
@@ -12,25 +13,6 @@
 #include <vector>
 
 namespace ceres_ed {
-
-// How far a point is from a node.
-enum class DistanceRule {
-  // Along the surface; Euclidean where there are no triangles.
-  kSurface,
-  kEuclidean,
-};
-
-// How points are bound to nodes.
-struct BindingOptions {
-  // m of Eq. 2: nodes a point, in [1, kMaxBoundNodes].
-  int neighbors = 4;
-  DistanceRule distance = DistanceRule::kSurface;
-  // Threads of the Euclidean search; the result does not depend on it.
-  int num_threads = 1;
-
-  // False, with a sentence in `error`, when a value is out of range.
-  bool IsValid(std::string* error) const;
-};
 
 // Writes the weights of a point's nearest nodes and returns how many nodes carry it (a prefix of
 // the list, in [1, neighbors]; weights are positive, never increase, and sum to 1).

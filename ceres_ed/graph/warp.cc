@@ -1,6 +1,7 @@
 #include "ceres_ed/graph/warp.h"
 
 #include <ceres_ed/geometry/normals.h>
+#include <ceres_ed/graph/binding.h>
 #include <ceres_ed/util/parallel.h>
 
 #include <string>

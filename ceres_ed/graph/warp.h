@@ -4,9 +4,9 @@
 
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/similarity.h>
-#include <ceres_ed/graph/binding.h>
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/graph/graph_options.h>
 #include <ceres_ed/graph/skinning.h>
 #include <ceres_ed/graph/vertex_field.h>
 #include <ceres_ed/util/status.h>

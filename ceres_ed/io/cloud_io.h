@@ -3,7 +3,7 @@
 #define CERES_ED_IO_CLOUD_IO_H_
 
 #include <ceres_ed/geometry/point_cloud.h>
-#include <ceres_ed/io/ply_document.h>
+#include <ceres_ed/io/mesh/ply_document.h>
 #include <ceres_ed/util/status.h>
 
 #include <array>

@@ -1,7 +1,7 @@
 #include "ceres_ed/io/graph_io.h"
 
-#include <ceres_ed/io/ply_writer.h>
-#include <ceres_ed/io/vertex_columns.h>
+#include <ceres_ed/io/mesh/ply_writer.h>
+#include <ceres_ed/io/mesh/vertex_columns.h>
 
 #include <array>
 #include <cstddef>

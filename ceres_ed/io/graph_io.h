@@ -5,7 +5,7 @@
 #include <ceres_ed/geometry/similarity.h>
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
-#include <ceres_ed/io/ply_document.h>
+#include <ceres_ed/io/mesh/ply_document.h>
 #include <ceres_ed/util/status.h>
 
 #include <string>

@@ -6,6 +6,7 @@
 #include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/energy/residual_store.h>
 #include <ceres_ed/problem/problem_config.h>
+#include <ceres_ed/problem/problem_types.h>
 #include <ceres_ed/util/status.h>
 
 #include <memory>
@@ -29,25 +30,6 @@ struct BuiltProblem {
   std::unique_ptr<ceres::Problem> problem;
   int num_variable_nodes = 0;
   bool camera_variable = false;
-};
-
-// The cost of one term. With the sum over residual blocks i of the term:
-struct TermEnergy {
-  std::string label;
-  // sum_i weight * weight_i * rho(|r_i|^2) / 2: what Ceres minimises.
-  double weighted = 0.0;
-  // sum_i |r_i|^2 / 2, free of weights and losses.
-  double raw = 0.0;
-  // Number of scalar residuals.
-  int residuals = 0;
-};
-
-// The costs of all terms at one state.
-struct EnergySummary {
-  std::vector<TermEnergy> terms;
-
-  // The objective (Eq. 3), half of it as Ceres counts.
-  double Total() const;
 };
 
 // One residual block of a subproblem; what it points to belongs to the builder, or to the config

@@ -6,20 +6,13 @@
 
 #include <ceres_ed/energy/energy.h>
 #include <ceres_ed/graph/deformation_graph.h>
+#include <ceres_ed/problem/problem_types.h>
 
 #include <vector>
 
 #include <ceres/cost_function.h>
 
 namespace ceres_ed {
-
-// What happens to a prior residual between a variable and a held node.
-enum class SeamEdges {
-  // It stays, and pulls toward where the held node was ("fixing Phi_2", Eq. 14).
-  kKeep,
-  // It is left out, as in the paper's figure on node types. The seam may tear.
-  kCut,
-};
 
 // A residual beyond those of the builder's terms, of weight 1 and without a loss: what eliminated
 // nodes leave on those that remain. The cost function must outlive what is built with it.

@@ -1,8 +1,8 @@
 // How good a fit is.
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/errors.h>
 #include <ceres_ed/python/surfaces.h>
-#include <ceres_ed/registration/evaluation.h>
 
 #include <optional>
 

@@ -1,6 +1,6 @@
 // The module ceres_ed._core: all that `import ceres_ed` gives.
+#include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 #include <ceres_ed/python/bindings.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
 #include <ceres_ed/version.h>
 
 #include <pybind11/pybind11.h>

@@ -5,6 +5,7 @@
 #include <ceres_ed/python/errors.h>
 #include <ceres_ed/python/memory.h>
 #include <ceres_ed/python/options.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 
 #include <cmath>
 #include <utility>

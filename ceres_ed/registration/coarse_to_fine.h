@@ -2,7 +2,8 @@
 #ifndef CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
 #define CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
 
-#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/graph/graph_builder.h>
+#include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/registration/matching.h>
 #include <ceres_ed/registration/nonrigid_loop.h>
 #include <ceres_ed/registration/unit_fit.h>

@@ -2,7 +2,7 @@
 
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/geometry/welded_mesh.h>
-#include <ceres_ed/solver/sparse_cholesky.h>
+#include <ceres_ed/linear_algebra/sparse_cholesky.h>
 
 #include <algorithm>
 #include <cmath>

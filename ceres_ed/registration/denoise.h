@@ -3,7 +3,7 @@
 #define CERES_ED_REGISTRATION_DENOISE_H_
 
 #include <ceres_ed/geometry/point_cloud.h>
-#include <ceres_ed/registration/surface.h>
+#include <ceres_ed/geometry/surface.h>
 
 namespace ceres_ed {
 

@@ -1,14 +1,16 @@
 #include "ceres_ed/registration/fit.h"
 
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
+#include <ceres_ed/registration/finish/unfold.h>
+#include <ceres_ed/registration/finish/vertex_finish.h>
 #include <ceres_ed/registration/fit_validation.h>
-#include <ceres_ed/registration/surface.h>
-#include <ceres_ed/registration/unfold.h>
-#include <ceres_ed/registration/vertex_finish.h>
+#include <ceres_ed/registration/rigid/rigid_registration.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>

@@ -3,8 +3,9 @@
 #define CERES_ED_REGISTRATION_FIT_PROBLEM_H_
 
 #include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/problem/problem_builder.h>
-#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/registration/fit_types.h>
 
 #include <memory>
 #include <string>

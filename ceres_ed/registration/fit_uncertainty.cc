@@ -1,7 +1,7 @@
 #include "ceres_ed/registration/fit_uncertainty.h"
 
-#include <ceres_ed/solver/state_covariance.h>
-#include <ceres_ed/solver/variance_factor.h>
+#include <ceres_ed/solver/covariance/state_covariance.h>
+#include <ceres_ed/solver/covariance/variance_factor.h>
 #include <ceres_ed/util/parallel.h>
 #include <ceres_ed/util/timer.h>
 

@@ -2,8 +2,9 @@
 #ifndef CERES_ED_REGISTRATION_FIT_UNCERTAINTY_H_
 #define CERES_ED_REGISTRATION_FIT_UNCERTAINTY_H_
 
-#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/registration/fit_problem.h>
+#include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/registration/unit_fit.h>
 
 #include <string>

@@ -2,7 +2,7 @@
 #ifndef CERES_ED_REGISTRATION_FIT_VALIDATION_H_
 #define CERES_ED_REGISTRATION_FIT_VALIDATION_H_
 
-#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/util/status.h>
 
 namespace ceres_ed {

@@ -4,7 +4,9 @@
 
 #include <ceres_ed/energy/energy.h>
 #include <ceres_ed/geometry/kd_tree.h>
-#include <ceres_ed/registration/surface.h>
+#include <ceres_ed/geometry/surface.h>
+#include <ceres_ed/registration/fit_options.h>
+#include <ceres_ed/registration/matches.h>
 
 #include <limits>
 #include <memory>
@@ -13,29 +15,6 @@
 #include <Eigen/Core>
 
 namespace ceres_ed {
-
-// Which pairs are believed.
-struct MatchingOptions {
-  // No pair farther apart than this, > 0, in the unit of the surfaces.
-  double max_distance = std::numeric_limits<double>::infinity();
-  // No pair whose normals differ by more, in (0, 180] degrees.
-  double max_angle_deg = 75.0;
-  // No pair farther apart than this multiple of the robust standard deviation of all distances
-  // (1.4826 times their median), > 0.
-  double max_deviations = 40.0;
-  // No pair whose closest point lies on a border: the other surface goes on where this one ends.
-  bool reject_borders = true;
-  // Point-to-plane to the mean of both normals instead of the target's.
-  bool symmetric_normals = true;
-  // Pairs this near are kept whatever the deviations say, >= 0: the resolution of the surfaces.
-  double resolution = 0.0;
-  // Fill in Matches::details: what only energies beyond the built-in ones of a fit look at.
-  bool with_details = false;
-  // The result doesn't depend on it, >= 1.
-  int num_threads = 1;
-
-  bool IsValid(std::string* error) const;
-};
 
 // A moving source: some points of a surface as they are now.
 struct MovedSource {
@@ -59,21 +38,6 @@ struct MatchMemory {
   const std::vector<Eigen::Vector3d>* source_points = nullptr;
   // The samples of the target, such that neighbours are near each other.
   std::vector<int> target_order;
-};
-
-// What a matching found.
-struct Matches {
-  std::vector<Correspondence> correspondences;
-  // By Correspondence::detail; empty where they weren't asked for.
-  std::vector<MatchDetail> details;
-  // Pairs that had a closest point at all, and those that were believed.
-  int candidates = 0;
-  int inliers = 0;
-  // Root mean square point-to-plane and point-to-point distance of the inliers.
-  double rms_plane = 0.0;
-  double rms_point = 0.0;
-  // 1.4826 times the median point-to-point distance of the candidates.
-  double robust_distance = 0.0;
 };
 
 // Pairs each sample of the source with its closest point on the target, and each of

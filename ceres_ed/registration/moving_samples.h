@@ -2,10 +2,10 @@
 #ifndef CERES_ED_REGISTRATION_MOVING_SAMPLES_H_
 #define CERES_ED_REGISTRATION_MOVING_SAMPLES_H_
 
+#include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/registration/matching.h>
-#include <ceres_ed/registration/surface.h>
 
 #include <vector>
 

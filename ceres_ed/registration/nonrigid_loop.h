@@ -2,9 +2,11 @@
 #ifndef CERES_ED_REGISTRATION_NONRIGID_LOOP_H_
 #define CERES_ED_REGISTRATION_NONRIGID_LOOP_H_
 
-#include <ceres_ed/registration/fit.h>
+#include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/registration/fit_problem.h>
+#include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/registration/unit_fit.h>
+#include <ceres_ed/solver/strategy.h>
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 #define CERES_ED_REGISTRATION_UNIT_FIT_H_
 
 #include <ceres_ed/energy/energy_registry.h>
-#include <ceres_ed/registration/fit.h>
-#include <ceres_ed/registration/surface.h>
+#include <ceres_ed/geometry/surface.h>
+#include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/util/timer.h>
 
 #include <vector>

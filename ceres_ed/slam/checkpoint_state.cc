@@ -1,10 +1,10 @@
 // What each class of the frame loop saves of itself.
 #include <ceres_ed/slam/checkpoint.h>
-#include <ceres_ed/slam/deformable_map.h>
-#include <ceres_ed/slam/feature_points.h>
-#include <ceres_ed/slam/levels.h>
-#include <ceres_ed/slam/slam.h>
-#include <ceres_ed/slam/tissue_memory.h>
+#include <ceres_ed/slam/frame/feature_points.h>
+#include <ceres_ed/slam/levels/levels.h>
+#include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/slam/map/tissue_memory.h>
+#include <ceres_ed/slam/tracker.h>
 
 #include <algorithm>
 #include <array>
@@ -186,7 +186,7 @@ void TissueMemory::Exchange(CheckpointArchive* archive) {
   }
 }
 
-void DeformableSlam::Exchange(CheckpointArchive* archive) {
+void Tracker::Exchange(CheckpointArchive* archive) {
   archive->Enter("slam");
   archive->Value("unit", &unit_);
   ExchangePose("world_from_map", &world_from_map_, archive);

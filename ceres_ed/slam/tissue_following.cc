@@ -1,6 +1,6 @@
 // What a frame does to the map once the camera is found: Level I and II, fusion, growth.
-#include <ceres_ed/slam/association.h>
-#include <ceres_ed/slam/slam.h>
+#include <ceres_ed/slam/frame/association.h>
+#include <ceres_ed/slam/tracker.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ constexpr int kMaxContradictions = 5;
 
 }  // namespace
 
-FrameObservations DeformableSlam::Observe(const AssociationResult& association) const {
+FrameObservations Tracker::Observe(const AssociationResult& association) const {
   FrameObservations observations;
   // What built-in energies don't look at is left out.
   const bool with_details = !options_.levels.energies.empty();
@@ -48,7 +48,7 @@ FrameObservations DeformableSlam::Observe(const AssociationResult& association) 
   return observations;
 }
 
-double DeformableSlam::FeatureDeviation() const {
+double Tracker::FeatureDeviation() const {
   const CameraPose& pose = map_.state().camera_from_map;
   std::vector<double> distances;
   for (const PointMatch& m : features_.Matches(map_)) {
@@ -58,7 +58,7 @@ double DeformableSlam::FeatureDeviation() const {
 }
 
 // Nodes that are recalled elsewhere than they were have reason to move.
-void DeformableSlam::NoteRecalled() {
+void Tracker::NoteRecalled() {
   const std::vector<int> affected = memory_.Affected();
   std::vector<Eigen::Vector3d> before;
   before.reserve(affected.size());
@@ -77,7 +77,7 @@ void DeformableSlam::NoteRecalled() {
 }
 
 // Nodes of the last frame that nothing has seen since, and what their new edges pull at.
-void DeformableSlam::NoteNewNodes() {
+void Tracker::NoteNewNodes() {
   PendingNodes& pending = levels_->pending();
   const double change = 2.0 * pending.tolerance();
   for (int node = nodes_before_growth_; node < map_.graph().num_nodes(); ++node) {
@@ -91,7 +91,7 @@ void DeformableSlam::NoteNewNodes() {
 }
 
 // Level I by rounds: associated anew ahead of each step. Returns what the last one looked at.
-FrameObservations DeformableSlam::FollowSeen(const ObservedSurface& surface, FrameReport* report) {
+FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameReport* report) {
   Timer timer;
   const CameraPose& pose = map_.state().camera_from_map;
   const double noise = std::max(surface.noise(), kLeastNoise);
@@ -127,7 +127,7 @@ FrameObservations DeformableSlam::FollowSeen(const ObservedSurface& surface, Fra
 }
 
 // Level II.
-void DeformableSlam::FollowHidden(bool catch_up, FrameReport* report) {
+void Tracker::FollowHidden(bool catch_up, FrameReport* report) {
   if (options_.mode == SolveMode::kBatch) return;
   Timer timer;
   NoteRecalled();
@@ -139,9 +139,7 @@ void DeformableSlam::FollowHidden(bool catch_up, FrameReport* report) {
   report->times.warp += timer.Restart();
 }
 
-void DeformableSlam::FollowTissue(const ObservedSurface& surface,
-                                  bool catch_up,
-                                  FrameReport* report) {
+void Tracker::FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report) {
   memory_.BeginFrame(levels_->point_relevant(), &map_);
   levels_->BeginFrame();
   const FrameObservations observations = FollowSeen(surface, report);
@@ -162,7 +160,7 @@ void DeformableSlam::FollowTissue(const ObservedSurface& surface,
   report->times.warp += timer.Restart();
 }
 
-void DeformableSlam::Verify(const FrameObservations& observations, FrameReport* report) {
+void Tracker::Verify(const FrameObservations& observations, FrameReport* report) {
   const Timer timer;
   DeformableMap copy = map_;
   std::vector<int> nodes(copy.graph().num_nodes());
@@ -174,9 +172,7 @@ void DeformableSlam::Verify(const FrameObservations& observations, FrameReport* 
 }
 
 // How well the map lies on the surface, now that it has been deformed.
-void DeformableSlam::Measure(const AssociationResult& association,
-                             double noise,
-                             FrameReport* report) {
+void Tracker::Measure(const AssociationResult& association, double noise, FrameReport* report) {
   const double width = kInlierWidth * std::max(association.deviation, noise);
   double squares = 0.0;
   for (const Association& m : association.matches) {
@@ -190,7 +186,7 @@ void DeformableSlam::Measure(const AssociationResult& association,
   report->features = features_.size();
 }
 
-void DeformableSlam::Fuse(const AssociationResult& association, double noise) {
+void Tracker::Fuse(const AssociationResult& association, double noise) {
   const CameraPose& pose = map_.state().camera_from_map;
   const double width = kInlierWidth * std::max(association.deviation, noise);
   for (const Association& m : association.matches) {
@@ -222,9 +218,7 @@ void DeformableSlam::Fuse(const AssociationResult& association, double noise) {
   visible_.erase(std::remove_if(visible_.begin(), visible_.end(), gone), visible_.end());
 }
 
-void DeformableSlam::Grow(const SlamFrame& frame,
-                          const ObservedSurface& surface,
-                          FrameReport* report) {
+void Tracker::Grow(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report) {
   Timer timer;
   nodes_before_growth_ = map_.graph().num_nodes();
   GrowMap(visible_, surface, frame.color, frame.number, options_.growth, &map_);

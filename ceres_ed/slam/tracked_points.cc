@@ -2,7 +2,7 @@
 
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/slam/checkpoint.h>
-#include <ceres_ed/slam/map_growth.h>
+#include <ceres_ed/slam/frame/map_growth.h>
 
 #include <algorithm>
 #include <cmath>

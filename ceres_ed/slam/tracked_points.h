@@ -3,8 +3,8 @@
 #define CERES_ED_SLAM_TRACKED_POINTS_H_
 
 #include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/slam/frame/visibility.h>
 #include <ceres_ed/slam/slam.h>
-#include <ceres_ed/slam/visibility.h>
 #include <ceres_ed/util/status.h>
 
 #include <array>

@@ -1,6 +1,6 @@
 #include "ceres_ed/solver/block_level_solver.h"
 
-#include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>

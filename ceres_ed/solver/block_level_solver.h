@@ -2,10 +2,10 @@
 #ifndef CERES_ED_SOLVER_BLOCK_LEVEL_SOLVER_H_
 #define CERES_ED_SOLVER_BLOCK_LEVEL_SOLVER_H_
 
-#include <ceres_ed/solver/block_cholesky.h>
-#include <ceres_ed/solver/block_structure.h>
+#include <ceres_ed/linear_algebra/block_cholesky.h>
+#include <ceres_ed/linear_algebra/block_structure.h>
 #include <ceres_ed/solver/level_solver.h>
-#include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <memory>
 #include <vector>

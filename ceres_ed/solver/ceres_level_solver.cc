@@ -1,6 +1,6 @@
 #include "ceres_ed/solver/ceres_level_solver.h"
 
-#include <ceres_ed/solver/linear_algebra_backend.h>
+#include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>

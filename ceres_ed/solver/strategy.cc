@@ -2,7 +2,7 @@
 
 #include <ceres_ed/solver/block_level_solver.h>
 #include <ceres_ed/solver/ceres_level_solver.h>
-#include <ceres_ed/solver/marginal_strategy.h>
+#include <ceres_ed/solver/strategies/marginal_strategy.h>
 #include <ceres_ed/util/option_check.h>
 #include <ceres_ed/util/timer.h>
 

@@ -1,83 +1,13 @@
 // How a problem is solved: batch, two-level, and what else shares their interface.
 #ifndef CERES_ED_SOLVER_STRATEGY_H_
 #define CERES_ED_SOLVER_STRATEGY_H_
-
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/problem/problem_builder.h>
-#include <ceres_ed/util/status.h>
+#include <ceres_ed/solver/solver_types.h>
 
-#include <functional>
 #include <memory>
-#include <string>
-#include <vector>
 
 namespace ceres_ed {
-
-// What minimises a level.
-enum class LinearSolver {
-  // ceres::Solve: the reference.
-  kCeres,
-  // Block normal equations with a kept symbolic factor (block_level_solver.h): the same minimum in
-  // less time.
-  kBlock,
-};
-
-// Limits and tolerances of one solve; the defaults converge a problem in normalised units.
-struct SolverOptions {
-  // Of each level, >= 0.
-  int max_iterations = 50;
-  // Relative change of the cost at which a level is converged, >= 0.
-  double function_tolerance = 1e-6;
-  // Largest gradient entry at which a level is converged, >= 0.
-  double gradient_tolerance = 1e-10;
-  // Relative size of a step at which a level is converged, >= 0.
-  double parameter_tolerance = 1e-8;
-  // Levenberg-Marquardt damping is 1 / radius at the start, > 0. Large: nearly Gauss-Newton.
-  double initial_trust_region_radius = 1e4;
-  // Threads of residual and Jacobian evaluation, >= 1. The result doesn't depend on it: that of
-  // kBlock to the bit, that of kCeres, which sums up the cost by thread, to rounding.
-  int num_threads = 1;
-  // Wall time of the whole solve, seconds, > 0. The step under way is finished, and a two-level
-  // solve then lets PI nodes follow by up to three steps.
-  double time_limit_s = 1e9;
-  // Asked after every iteration; true ends the solve with the best state so far, in the same way.
-  std::function<bool()> should_stop;
-
-  // False, with the option and what was expected in `error`, when a value is out of range.
-  bool IsValid(std::string* error) const;
-};
-
-enum class SolveStatus { kFailed, kMaxIterations, kTimeLimit, kInterrupted, kConverged };
-
-// The contract's name of a status: converged, max_iterations, time_limit, interrupted, failed.
-std::string SolveStatusName(SolveStatus status);
-
-// What one level did.
-struct LevelSummary {
-  int num_variable_nodes = 0;
-  int iterations = 0;
-  double initial_cost = 0.0;
-  double final_cost = 0.0;
-  double build_time_s = 0.0;
-  double solve_time_s = 0.0;
-};
-
-// The outcome of a solve. It starts out failed.
-struct SolveSummary {
-  SolveStatus status = SolveStatus::kFailed;
-  std::string message = "not solved";
-  // The residual that made it fail (ProblemBuilder::CheckResiduals); empty where it was none.
-  std::string fault;
-  // Of the full problem (all residuals), before and after.
-  double initial_energy = 0.0;
-  double final_energy = 0.0;
-  // In the order in which they were solved: one of batch, or Level I and Level II.
-  std::vector<LevelSummary> levels;
-
-  // False when the state is what it was before the solve.
-  bool IsUsable() const { return status != SolveStatus::kFailed; }
-  int TotalIterations() const;
-};
 
 // A way to solve. One object serves any number of problems, one at a time: it keeps what helps with
 // the next, similar one.
@@ -89,32 +19,6 @@ class Strategy {
   virtual SolveSummary Solve(const ProblemBuilder& builder,
                              const SolverOptions& options,
                              DeformationState* state) = 0;
-};
-
-enum class SolveMode {
-  // Every node at once.
-  kBatch,
-  // Camera and PR nodes (Eq. 14), then PI nodes (Eq. 15).
-  kTwoLevel,
-  // Camera and PR nodes with the PI nodes eliminated (Eq. 20), then PI nodes by back-substitution:
-  // the minimum of kBatch. Its levels are Level I and the residuals of the eliminated nodes.
-  kMarginal,
-};
-
-// Which strategy, and how it treats the seam.
-struct StrategyOptions {
-  SolveMode mode = SolveMode::kBatch;
-  // Rings of PI nodes that Level I moves too, >= 0.
-  int rings = 2;
-  // Of kTwoLevel.
-  SeamEdges seam_edges = SeamEdges::kKeep;
-  LinearSolver linear_solver = LinearSolver::kBlock;
-  // kMarginal: change of an entry of A_j of a PI node above which an elimination isn't used again,
-  // no unit, >= 0. It changes the number of steps and what one costs, not the minimum. Much above
-  // the default the soft modes of a large hidden part go astray, and steps are refused.
-  double relinearize_above = 0.003;
-
-  bool IsValid(std::string* error) const;
 };
 
 // The strategy of valid options.

@@ -1,7 +1,7 @@
 #include "ceres_ed/testing/cost_laws.h"
 
 #include <ceres_ed/testing/cost_evaluation.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,7 +79,7 @@ class LawChecker {
 
   void MakeStates() {
     states_.push_back({"at rest", claims_.rest});
-    SyntheticRandom random(options_.seed);
+    Random random(options_.seed);
     const auto add = [&](const char* name, double deviation) {
       for (int i = 0; i < options_.num_states; ++i) {
         NamedState state{name + std::to_string(i + 1), claims_.rest};

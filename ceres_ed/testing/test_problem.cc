@@ -1,6 +1,6 @@
 #include "ceres_ed/testing/test_problem.h"
 
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <array>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 // Keeps every node and point out of one plane.
 double Height(double x, double y) { return 0.3 * std::sin(0.9 * x + 0.5 * y); }
 
-Eigen::Vector3d GaussianVector(double deviation, SyntheticRandom* random) {
+Eigen::Vector3d GaussianVector(double deviation, Random* random) {
   Eigen::Vector3d vector;
   for (int i = 0; i < 3; ++i) vector[i] = deviation * random->Gaussian();
   return vector;
@@ -49,7 +49,7 @@ void AddPoint(int column, int row, double u, double v, int rows, TestProblem* pr
 
 // With numbers of its own, so that the correspondences are the same with and without details.
 void AddDetails(std::uint64_t seed, TestProblem* problem) {
-  SyntheticRandom random(seed + 1);
+  Random random(seed + 1);
   for (Correspondence& c : problem->correspondences) {
     MatchDetail detail;
     detail.source_normal = (Eigen::Vector3d::UnitZ() + GaussianVector(0.3, &random)).normalized();
@@ -100,7 +100,7 @@ TestProblem MakeTestProblem(const TestProblemOptions& options) {
   problem.has_camera = options.has_camera;
   AddNodes(options, &problem.graph);
   problem.node_prior.assign(problem.graph.num_nodes(), Eigen::Vector3d::Zero());
-  SyntheticRandom random(options.seed);
+  Random random(options.seed);
   const int observed =
       options.observed_columns < 0 ? options.columns - 1 : options.observed_columns;
   const auto observe = [&](int point) {
@@ -127,7 +127,7 @@ TestProblem MakeTestProblem(const TestProblemOptions& options) {
 }
 
 DeformationState RandomState(const TestProblem& problem, double deviation, std::uint64_t seed) {
-  SyntheticRandom random(seed);
+  Random random(seed);
   DeformationState state(problem.graph.num_nodes());
   for (int j = 0; j < state.num_nodes(); ++j) {
     for (int i = 0; i < kNodeSize; ++i) state.node(j)[i] += deviation * random.Gaussian();

@@ -1,7 +1,7 @@
 // The parts of a factorisation: analysis, numeric factor and solve, on sheets of nodes that are
 // joined to their 8 neighbours. "Points" stands for nodes that share points, so that their affine
 // parts are coupled, "Edges" for nodes that share edges alone.
-#include <ceres_ed/solver/block_cholesky.h>
+#include <ceres_ed/linear_algebra/block_cholesky.h>
 
 #include <algorithm>
 #include <vector>

@@ -5,7 +5,7 @@
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/level_solver.h>
-#include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <memory>

@@ -1,7 +1,7 @@
 // One iteration of Level I on a window of 20 x 20 nodes and a camera, in maps of growing length;
 // and what it is made of before anything is factorised.
 #include <ceres_ed/solver/level_solver.h>
-#include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <memory>
 #include <vector>

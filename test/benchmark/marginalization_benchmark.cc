@@ -1,5 +1,5 @@
 // Marginalising the PI nodes of a strip: 300 PR nodes at one end, all others PI.
-#include <ceres_ed/solver/marginalization.h>
+#include <ceres_ed/solver/marginal/marginalization.h>
 #include <ceres_ed/solver/strategy.h>
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // What every program promises, whatever it does.
-#include <ceres_ed/solver/front_kernels.h>
+#include <ceres_ed/linear_algebra/front_kernels.h>
 #include <ceres_ed/version.h>
 
 #include <string>

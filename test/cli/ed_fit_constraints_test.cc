@@ -1,6 +1,6 @@
 // Landmarks and fixed vertices of ed_fit, on the shipped dolphin and on a ring.
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/io/point_list_io.h>
-#include <ceres_ed/registration/evaluation.h>
 
 #include <gmock/gmock.h>
 #include <test/cli/ed_fit_test_util.h>

@@ -1,6 +1,6 @@
 // What ed_fit says: the summary, and every field of report.json.
 #include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/simulation/views.h>
 
 #include <gmock/gmock.h>
 #include <test/cli/ed_fit_test_util.h>

@@ -1,7 +1,7 @@
 // What ed_fit makes of good inputs.
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/io/warp_io.h>
-#include <ceres_ed/registration/evaluation.h>
 
 #include <algorithm>
 #include <map>

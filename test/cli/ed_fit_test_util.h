@@ -3,7 +3,7 @@
 #define CERES_ED_TEST_CLI_ED_FIT_TEST_UTIL_H_
 
 #include <ceres_ed/io/cloud_io.h>
-#include <ceres_ed/solver/linear_algebra_backend.h>
+#include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 
 #include <algorithm>
 #include <cmath>

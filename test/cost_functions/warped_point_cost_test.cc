@@ -2,7 +2,7 @@
 
 #include <ceres_ed/testing/cost_evaluation.h>
 #include <ceres_ed/testing/cost_laws.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <memory>
@@ -42,12 +42,12 @@ struct PartialCost {
   }
 };
 
-Eigen::Vector3d RandomVector(SyntheticRandom* random) {
+Eigen::Vector3d RandomVector(Random* random) {
   return {random->Gaussian(), random->Gaussian(), random->Gaussian()};
 }
 
 BoundPoint RandomPoint(int num_nodes, std::uint64_t seed) {
-  SyntheticRandom random(seed);
+  Random random(seed);
   double weights[kMaxBoundNodes];
   Eigen::Vector3d positions[kMaxBoundNodes];
   double sum = 0.0;
@@ -74,7 +74,7 @@ ParameterBlocks RestBlocks(int num_nodes, bool has_camera) {
 }
 
 ParameterBlocks RandomBlocks(int num_nodes, bool has_camera, std::uint64_t seed) {
-  SyntheticRandom random(seed);
+  Random random(seed);
   ParameterBlocks blocks = RestBlocks(num_nodes, has_camera);
   for (std::vector<double>& block : blocks) {
     for (double& value : block) value += 0.7 * random.Gaussian();

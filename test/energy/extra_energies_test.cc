@@ -3,9 +3,10 @@
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/registration/fit.h>
+#include <ceres_ed/simulation/shapes.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam.h>
 #include <ceres_ed/testing/energy_laws.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 #include <ceres_ed/geometry/noise_estimate.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/simulation/shapes.h>
+#include <ceres_ed/simulation/views.h>
+#include <ceres_ed/util/random.h>
 
 #include <cmath>
 
@@ -51,7 +52,7 @@ TEST(EstimateNoise, IsSmallOnCleanShapes) {
 
 TEST(EstimateNoise, CountsNoiseAlongOneAxisWithItsPartAcrossTheSurface) {
   const PointCloud grid = MakeGridMesh(60, 60, 1.0);
-  SyntheticRandom random(3);
+  Random random(3);
   PointCloud across = grid;
   PointCloud tilted = grid;
   for (std::size_t p = 0; p < grid.size(); ++p) {
@@ -65,7 +66,7 @@ TEST(EstimateNoise, CountsNoiseAlongOneAxisWithItsPartAcrossTheSurface) {
 
 TEST(EstimateNoise, FindsNoiseThatIsLargerThanAnEdge) {
   PointCloud cloud = MakeGridMesh(80, 80, 1.0);
-  SyntheticRandom random(4);
+  Random random(4);
   for (Eigen::Vector3d& point : cloud.points) point.z() += 2.0 * random.Gaussian();
   EXPECT_NEAR(NoiseOf(cloud), 2.0, 0.2);
 }

@@ -1,4 +1,5 @@
 #include <ceres_ed/geometry/sampling.h>
+#include <ceres_ed/graph/binding.h>
 #include <ceres_ed/graph/warp.h>
 
 #include <cmath>

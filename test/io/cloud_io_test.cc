@@ -2,8 +2,8 @@
 
 #include "io_test_util.h"
 
-#include <ceres_ed/io/ply_reader.h>
-#include <ceres_ed/io/ply_writer.h>
+#include <ceres_ed/io/mesh/ply_reader.h>
+#include <ceres_ed/io/mesh/ply_writer.h>
 
 #include <array>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ceres_ed/io/live_cloud_io.h"
+#include "ceres_ed/io/results/live_cloud_io.h"
 
 #include <ceres_ed/io/cloud_io.h>
 

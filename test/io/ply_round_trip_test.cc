@@ -1,7 +1,7 @@
 #include "io_test_util.h"
 
-#include <ceres_ed/io/ply_reader.h>
-#include <ceres_ed/io/ply_writer.h>
+#include <ceres_ed/io/mesh/ply_reader.h>
+#include <ceres_ed/io/mesh/ply_writer.h>
 
 #include <cmath>
 #include <cstdlib>

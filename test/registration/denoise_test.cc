@@ -1,5 +1,5 @@
 #include <ceres_ed/registration/denoise.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -41,7 +41,7 @@ PointCloud MakeTriangularLattice() {
 }
 
 PointCloud WithHeights(PointCloud cloud, double sigma, unsigned seed) {
-  SyntheticRandom random(seed);
+  Random random(seed);
   for (Eigen::Vector3d& point : cloud.points) point.z() += sigma * random.Gaussian();
   return cloud;
 }

@@ -1,9 +1,9 @@
 // What a fit makes of a noisy target.
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/fit.h>
-#include <ceres_ed/testing/synthetic_pairs.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/simulation/pairs.h>
+#include <ceres_ed/simulation/shapes.h>
+#include <ceres_ed/simulation/views.h>
 
 #include <cstddef>
 #include <string>

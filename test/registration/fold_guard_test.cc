@@ -1,4 +1,4 @@
-#include <ceres_ed/registration/fold_guard.h>
+#include <ceres_ed/registration/finish/fold_guard.h>
 
 #include <vector>
 

@@ -1,9 +1,9 @@
 // Targets that show a part of the source, turned far away, deformed and noisy.
 #include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/registration/rigid_registration.h>
-#include <ceres_ed/testing/synthetic_deformations.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/registration/rigid/rigid_registration.h>
+#include <ceres_ed/simulation/deformations.h>
+#include <ceres_ed/simulation/shapes.h>
+#include <ceres_ed/simulation/views.h>
 
 #include <cmath>
 #include <tuple>

@@ -1,8 +1,8 @@
-#include "ceres_ed/registration/rigid_registration.h"
+#include "ceres_ed/registration/rigid/rigid_registration.h"
 
 #include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/registration/rigid_starts.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
+#include <ceres_ed/registration/rigid/rigid_starts.h>
+#include <ceres_ed/simulation/shapes.h>
 
 #include <cmath>
 #include <vector>

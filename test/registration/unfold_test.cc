@@ -1,5 +1,5 @@
-#include <ceres_ed/registration/folded_faces.h>
-#include <ceres_ed/registration/unfold.h>
+#include <ceres_ed/registration/finish/folded_faces.h>
+#include <ceres_ed/registration/finish/unfold.h>
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 #include <ceres_ed/geometry/closest_point.h>
-#include <ceres_ed/registration/vertex_finish.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/registration/finish/vertex_finish.h>
+#include <ceres_ed/simulation/shapes.h>
+#include <ceres_ed/simulation/views.h>
 
 #include <algorithm>
 #include <array>

@@ -2,9 +2,10 @@
 // are those of one after the other. Built with the thread sanitizer too, which has to stay silent.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/registration/fit.h>
+#include <ceres_ed/simulation/deformations.h>
+#include <ceres_ed/simulation/shapes.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam.h>
-#include <ceres_ed/testing/synthetic_deformations.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
 
 #include <cstring>
 #include <functional>

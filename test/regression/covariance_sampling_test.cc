@@ -2,7 +2,7 @@
 // an error of its own.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/graph/warp.h>
-#include <ceres_ed/solver/state_covariance.h>
+#include <ceres_ed/solver/covariance/state_covariance.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <cmath>

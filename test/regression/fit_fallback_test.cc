@@ -2,8 +2,8 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/point_energy.h>
 #include <ceres_ed/registration/fit.h>
-#include <ceres_ed/testing/synthetic_deformations.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
+#include <ceres_ed/simulation/deformations.h>
+#include <ceres_ed/simulation/shapes.h>
 
 #include <memory>
 #include <utility>

@@ -1,10 +1,10 @@
 // What a fit may not depend on: units, place, order, threads, luck.
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/registration/evaluation.h>
 #include <ceres_ed/registration/fit.h>
-#include <ceres_ed/testing/synthetic_deformations.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
+#include <ceres_ed/simulation/deformations.h>
+#include <ceres_ed/simulation/shapes.h>
 
 #include <algorithm>
 #include <numeric>

@@ -1,8 +1,8 @@
 // How well default fits do, on the pairs in data/ and on real ones: no change may make them worse
 // unnoticed.
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/io/cloud_io.h>
-#include <ceres_ed/registration/evaluation.h>
 #include <ceres_ed/registration/fit.h>
 
 #include <algorithm>

@@ -7,10 +7,10 @@
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/simulation/deformations.h>
+#include <ceres_ed/simulation/shapes.h>
+#include <ceres_ed/simulation/views.h>
 #include <ceres_ed/solver/strategy.h>
-#include <ceres_ed/testing/synthetic_deformations.h>
-#include <ceres_ed/testing/synthetic_shapes.h>
-#include <ceres_ed/testing/synthetic_views.h>
 
 #include <cmath>
 #include <memory>

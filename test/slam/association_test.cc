@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/association.h"
+#include "ceres_ed/slam/frame/association.h"
 
 #include <cmath>
 

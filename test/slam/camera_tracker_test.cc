@@ -1,6 +1,6 @@
-#include "ceres_ed/slam/camera_tracker.h"
+#include "ceres_ed/slam/frame/camera_tracker.h"
 
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <cmath>
 
@@ -57,7 +57,7 @@ TEST(TrackCamera, FindsAKnownMotion) {
 
 TEST(TrackCamera, IsNotMovedByOutliers) {
   TrackedScene scene(HillScene(), TruePose());
-  SyntheticRandom random(5);
+  Random random(5);
   int outliers = 0;
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
     if (k % 10 >= 3) continue;

@@ -1,6 +1,7 @@
 #include "ceres_ed/slam/checkpoint.h"
 
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam.h>
 
 #include <array>

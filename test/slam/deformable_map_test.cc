@@ -1,7 +1,7 @@
-#include "ceres_ed/slam/deformable_map.h"
+#include "ceres_ed/slam/map/deformable_map.h"
 
 #include <ceres_ed/graph/warp.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <map>
@@ -13,19 +13,19 @@
 namespace ceres_ed {
 namespace {
 
-Eigen::Vector3d RandomVector(double size, SyntheticRandom* random) {
+Eigen::Vector3d RandomVector(double size, Random* random) {
   Eigen::Vector3d x;
   for (int i = 0; i < 3; ++i) x[i] = size * random->Gaussian();
   return x;
 }
 
-Eigen::Matrix3d RandomAffine(SyntheticRandom* random) {
+Eigen::Matrix3d RandomAffine(Random* random) {
   Eigen::Matrix3d A = Eigen::Matrix3d::Identity();
   for (int i = 0; i < 9; ++i) A(i) += 0.2 * random->Gaussian();
   return A;
 }
 
-int Pick(int count, SyntheticRandom* random) {
+int Pick(int count, Random* random) {
   return std::min(count - 1, static_cast<int>(count * random->Uniform()));
 }
 
@@ -38,7 +38,7 @@ struct OwnBinding {
 };
 
 // Up to four of `num_nodes` nodes, once each.
-OwnBinding RandomBinding(int num_nodes, SyntheticRandom* random) {
+OwnBinding RandomBinding(int num_nodes, Random* random) {
   OwnBinding binding;
   double sum = 0.0;
   for (int k = 1 + Pick(4, random); k > 0; --k) {
@@ -52,7 +52,7 @@ OwnBinding RandomBinding(int num_nodes, SyntheticRandom* random) {
   return binding;
 }
 
-DeformableMap RandomNodes(int count, SyntheticRandom* random) {
+DeformableMap RandomNodes(int count, Random* random) {
   DeformableMap map;
   for (int j = 0; j < count; ++j) {
     map.AddNode(RandomVector(5.0, random), RandomVector(5.0, random), RandomAffine(random));
@@ -61,7 +61,7 @@ DeformableMap RandomNodes(int count, SyntheticRandom* random) {
 }
 
 TEST(DeformableMap, PutsANodeWhereItIsNow) {
-  SyntheticRandom random(1);
+  Random random(1);
   DeformableMap map;
   for (int j = 0; j < 5; ++j) {
     const Eigen::Vector3d at_rest = RandomVector(3.0, &random);
@@ -102,7 +102,7 @@ struct Model {
 };
 
 TEST(DeformableMap, KeepsItsBooksThroughAddingRemovingAndRebinding) {
-  SyntheticRandom random(2);
+  Random random(2);
   DeformableMap map = RandomNodes(20, &random);
   Model model;
   int most = 0;
@@ -147,7 +147,7 @@ TEST(DeformableMap, KeepsItsBooksThroughAddingRemovingAndRebinding) {
 }
 
 TEST(DeformableMapDeathTest, RemovesNoPointTwice) {
-  SyntheticRandom random(3);
+  Random random(3);
   DeformableMap map = RandomNodes(2, &random);
   const int slot = map.AddPoint(MapPoint(), RandomBinding(2, &random).Get());
   map.RemovePoint(slot);
@@ -155,7 +155,7 @@ TEST(DeformableMapDeathTest, RemovesNoPointTwice) {
 }
 
 TEST(DeformableMap, WarpsABindingAsTheGraphDoes) {
-  SyntheticRandom random(4);
+  Random random(4);
   const DeformableMap map = RandomNodes(12, &random);
   for (int k = 0; k < 50; ++k) {
     const OwnBinding binding = RandomBinding(12, &random);

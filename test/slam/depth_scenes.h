@@ -5,7 +5,7 @@
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/graph/deformation_state.h>
-#include <ceres_ed/slam/visibility.h>
+#include <ceres_ed/slam/frame/visibility.h>
 
 #include <cmath>
 #include <limits>

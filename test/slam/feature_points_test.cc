@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/feature_points.h"
+#include "ceres_ed/slam/frame/feature_points.h"
 
 #include <ceres_ed/graph/warp.h>
 

@@ -4,8 +4,8 @@
 
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/problem/problem_builder.h>
-#include <ceres_ed/slam/deformable_map.h>
-#include <ceres_ed/slam/levels.h>
+#include <ceres_ed/slam/levels/levels.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/level_window.h"
+#include "ceres_ed/slam/levels/level_window.h"
 
 #include <ceres_ed/testing/test_problem.h>
 

@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/levels.h"
+#include "ceres_ed/slam/levels/levels.h"
 
 #include <ceres_ed/graph/node_neighborhood.h>
 #include <ceres_ed/solver/strategy.h>

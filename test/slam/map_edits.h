@@ -2,7 +2,7 @@
 #ifndef CERES_ED_TEST_SLAM_MAP_EDITS_H_
 #define CERES_ED_TEST_SLAM_MAP_EDITS_H_
 
-#include <ceres_ed/slam/deformable_map.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 
 #include <algorithm>
 #include <array>

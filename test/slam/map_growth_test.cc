@@ -1,7 +1,7 @@
-#include "ceres_ed/slam/map_growth.h"
+#include "ceres_ed/slam/frame/map_growth.h"
 
 #include <ceres_ed/graph/warp.h>
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -189,7 +189,7 @@ TEST(GrowMap, LeavesGrazingPatchesUntilTheyAreSeenBetter) {
 class GrowDeformedMap : public ::testing::Test {
  protected:
   GrowDeformedMap() {
-    SyntheticRandom random(8);
+    Random random(8);
     for (int j = 0; j < map_.graph().num_nodes(); ++j) {
       EditNode(&map_, j, [&](double* parameters) {
         for (int i = 0; i < kNodeSize; ++i) parameters[i] += 0.03 * random.Gaussian();

@@ -1,6 +1,6 @@
-#include "ceres_ed/slam/map_points.h"
+#include "ceres_ed/slam/map/map_points.h"
 
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <limits>
@@ -14,11 +14,11 @@ namespace {
 constexpr double kFloatStep = 0x1p-24;
 constexpr double kNormalStep = 1.0 / 32767.0;
 
-Eigen::Vector3d RandomVector(double size, SyntheticRandom* random) {
+Eigen::Vector3d RandomVector(double size, Random* random) {
   return size * Eigen::Vector3d(random->Gaussian(), random->Gaussian(), random->Gaussian());
 }
 
-MapPoint RandomPoint(SyntheticRandom* random) {
+MapPoint RandomPoint(Random* random) {
   MapPoint point;
   point.position = RandomVector(1e4, random);
   point.normal = RandomVector(1.0, random).normalized();
@@ -32,7 +32,7 @@ MapPoint RandomPoint(SyntheticRandom* random) {
 }
 
 TEST(MapPoints, KeepsPlacesToTheBitAndTheRestToTheirSteps) {
-  SyntheticRandom random(1);
+  Random random(1);
   MapPoints points(4);
   points.Resize(100);
   for (int slot = 0; slot < 100; ++slot) {
@@ -79,7 +79,7 @@ TEST(MapPoints, HoldsTheEndsOfItsRanges) {
 }
 
 TEST(MapPoints, KeepsWeightsThatSumToOneInDouble) {
-  SyntheticRandom random(2);
+  Random random(2);
   for (int neighbors = 1; neighbors <= kMaxBoundNodes; ++neighbors) {
     MapPoints points(neighbors);
     points.Resize(neighbors);

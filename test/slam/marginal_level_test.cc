@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/marginal_level.h"
+#include "ceres_ed/slam/levels/marginal_level.h"
 
 #include <algorithm>
 #include <cmath>

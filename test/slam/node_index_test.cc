@@ -1,6 +1,6 @@
-#include "ceres_ed/slam/node_index.h"
+#include "ceres_ed/slam/map/node_index.h"
 
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <vector>
@@ -13,7 +13,7 @@ namespace {
 
 const PinholeCamera kCamera = {90.0, 80.0, 47.0, 33.0, 96, 72};
 
-CameraPose RandomPose(SyntheticRandom* random) {
+CameraPose RandomPose(Random* random) {
   CameraPose pose;
   pose.rotation =
       Eigen::Quaterniond(
@@ -23,7 +23,7 @@ CameraPose RandomPose(SyntheticRandom* random) {
   return pose;
 }
 
-Eigen::Vector3d RandomPlace(double size, SyntheticRandom* random) {
+Eigen::Vector3d RandomPlace(double size, Random* random) {
   return size * Eigen::Vector3d(random->Gaussian(), random->Gaussian(), random->Gaussian());
 }
 
@@ -36,7 +36,7 @@ bool IsInPicture(const CameraPose& pose, const Eigen::Vector3d& point) {
 }
 
 TEST(ViewVolume, TouchesEveryBallWithAPointInThePicture) {
-  SyntheticRandom random(1);
+  Random random(1);
   int inside = 0;
   int refused = 0;
   for (int k = 0; k < 20000; ++k) {
@@ -61,7 +61,7 @@ TEST(ViewVolume, TouchesEveryBallWithAPointInThePicture) {
 // Against a look at every node; cells are up to 4 wide, so that nodes up to their diagonal farther
 // away may come along.
 TEST(NodeIndex, FindsWhatALookAtEveryNodeFinds) {
-  SyntheticRandom random(2);
+  Random random(2);
   NodeIndex index;
   std::vector<Eigen::Vector3d> places;
   for (int j = 0; j < 3000; ++j) {

@@ -1,6 +1,6 @@
-#include "ceres_ed/slam/observed_surface.h"
+#include "ceres_ed/slam/frame/observed_surface.h"
 
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,7 +160,7 @@ TEST(ObservedSurface, MeasuresTheNoiseOfAPixel) {
   // (1 - 2 / (9 46))^1.5 = 0.9927 sigma. 19200 / 49 = 392 windows have nothing in common, each with
   // a spread of sigma / sqrt(92): the median is known to 0.0066 sigma; three times that.
   const double sigma = 0.4e-3;
-  SyntheticRandom random(7);
+  Random random(7);
   DepthImage depth = RenderDepth(SmallCamera(), TiltedPlane(0.3, 15.0, 30.0));
   for (float& z : depth.pixels()) z += static_cast<float>(sigma * random.Gaussian());
   EXPECT_NEAR(Observe(depth).noise(), 0.9927 * sigma, 0.02 * sigma);
@@ -168,7 +168,7 @@ TEST(ObservedSurface, MeasuresTheNoiseOfAPixel) {
 }
 
 TEST(ObservedSurface, HasTheSameBitsOnAnyNumberOfThreads) {
-  SyntheticRandom random(3);
+  Random random(3);
   DepthImage depth = RenderDepth(SmallCamera(), HillScene());
   for (float& z : depth.pixels()) z += static_cast<float>(0.02 * random.Gaussian());
   ObservedSurfaceOptions options;

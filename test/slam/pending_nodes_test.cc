@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/pending_nodes.h"
+#include "ceres_ed/slam/levels/pending_nodes.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #define CERES_ED_TEST_SLAM_PICTURE_SCENES_H_
 
 #include <ceres_ed/geometry/images.h>
-#include <ceres_ed/testing/synthetic_texture.h>
+#include <ceres_ed/simulation/texture.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/pixel_tracker.h"
+#include "ceres_ed/slam/frame/pixel_tracker.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/relocalization.h"
+#include "ceres_ed/slam/frame/relocalization.h"
 
 #include <cmath>
 #include <vector>

@@ -1,5 +1,7 @@
 #include "ceres_ed/slam/slam.h"
 
+#include <ceres_ed/slam/map/deformable_map.h>
+
 #include <cmath>
 #include <limits>
 

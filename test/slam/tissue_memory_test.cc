@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/tissue_memory.h"
+#include "ceres_ed/slam/map/tissue_memory.h"
 
 #include <cmath>
 #include <vector>

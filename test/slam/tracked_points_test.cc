@@ -1,6 +1,7 @@
 #include "ceres_ed/slam/tracked_points.h"
 
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 
 #include <memory>
 #include <string>

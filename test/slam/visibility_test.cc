@@ -1,6 +1,6 @@
-#include "ceres_ed/slam/visibility.h"
+#include "ceres_ed/slam/frame/visibility.h"
 
-#include <ceres_ed/testing/synthetic_views.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <set>
@@ -148,7 +148,7 @@ TEST(FindVisible, SeesAllOfASteepPlane) {
 TEST(FindVisible, LosesNoPointByCullingNodes) {
   const PinholeCamera wide = {70.0, 70.0, 79.5, 59.5, 160, 120};
   const CameraPose camera_from_map = Motion(0.7, {1.0, 2.0, -1.0}, {0.5, -0.3, 1.0});
-  SyntheticRandom random(11);
+  Random random(11);
   const auto in_ball = [&random](double radius) {
     Eigen::Vector3d x;
     do {

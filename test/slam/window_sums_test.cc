@@ -1,4 +1,4 @@
-#include <ceres_ed/slam/window_sums.h>
+#include <ceres_ed/slam/frame/window_sums.h>
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/problem/problem_builder.h>
-#include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <memory>
@@ -13,7 +13,7 @@
 #include <Eigen/Core>
 #include <ceres/crs_matrix.h>
 #include <gtest/gtest.h>
-#include <test/solver/dense_matrix.h>
+#include <test/linear_algebra/dense_matrix.h>
 
 namespace ceres_ed {
 

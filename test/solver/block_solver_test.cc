@@ -1,5 +1,5 @@
 // The block solver against Ceres, and its parts against dense linear algebra.
-#include <ceres_ed/solver/loss_correction.h>
+#include <ceres_ed/solver/normal_equations/loss_correction.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/test_problem.h>
 

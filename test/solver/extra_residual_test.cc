@@ -1,14 +1,14 @@
 // A prior in place of eliminated nodes, in the problems of both level solvers.
-#include <ceres_ed/solver/marginalization.h>
-#include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/solver/marginal/marginalization.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <vector>
 
 #include <Eigen/Core>
 #include <ceres/crs_matrix.h>
 #include <gtest/gtest.h>
+#include <test/linear_algebra/dense_matrix.h>
 #include <test/problem/strip_builder.h>
-#include <test/solver/dense_matrix.h>
 
 namespace ceres_ed {
 namespace {

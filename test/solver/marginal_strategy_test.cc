@@ -1,4 +1,4 @@
-#include "ceres_ed/solver/marginal_strategy.h"
+#include "ceres_ed/solver/strategies/marginal_strategy.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Marginalisation against dense linear algebra on what Ceres linearises.
-#include <ceres_ed/solver/marginalization.h>
+#include <ceres_ed/solver/marginal/marginalization.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,8 +10,8 @@
 #include <Eigen/Core>
 #include <ceres/crs_matrix.h>
 #include <gtest/gtest.h>
+#include <test/linear_algebra/dense_matrix.h>
 #include <test/problem/strip_builder.h>
-#include <test/solver/dense_matrix.h>
 
 namespace ceres_ed {
 namespace {

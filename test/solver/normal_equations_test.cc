@@ -1,7 +1,7 @@
 // The normal equations against Ceres.
-#include "ceres_ed/solver/normal_equations.h"
+#include "ceres_ed/solver/normal_equations/normal_equations.h"
 
-#include <ceres_ed/solver/block_cholesky.h>
+#include <ceres_ed/linear_algebra/block_cholesky.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -78,10 +78,10 @@ TEST(NormalEquations, KnowWhichPairsShareTranslationsAlone) {
   for (int j = 0; j < structure.num_blocks(); ++j) {
     for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {
       const int row = structure.entry_row(e);
-      EXPECT_EQ(structure.affine_pair(e), row == j || row < 9) << row << ", " << j;
+      EXPECT_EQ(structure.head_pair(e), row == j || row < 9) << row << ", " << j;
       const Eigen::Map<const Eigen::Matrix<double, kNodeSize, kNodeSize>> block(
           &values[structure.value_offset(e)]);
-      EXPECT_EQ((block.topLeftCorner<9, 9>().isZero(0.0)), !structure.affine_pair(e));
+      EXPECT_EQ((block.topLeftCorner<9, 9>().isZero(0.0)), !structure.head_pair(e));
       EXPECT_FALSE(block.isZero(0.0));
     }
   }
@@ -155,8 +155,8 @@ TEST(NormalEquations, RefuseAStructureThatLacksAnAffinePair) {
   const StripBuilder strip(options);
   NormalEquations equations(strip.builder, FullConfig(18, false));
   std::vector<BlockPair> pairs = equations.BlockPairs();
-  ASSERT_TRUE(pairs.front().affine_pair);
-  pairs.front().affine_pair = false;
+  ASSERT_TRUE(pairs.front().head_pair);
+  pairs.front().head_pair = false;
   const BlockStructure structure(equations.BlockSizes(), pairs);
   EXPECT_FALSE(equations.SetStructure(&structure));
 }
@@ -167,7 +167,7 @@ TEST(BlockStructure, JoinsRepeatedPairs) {
   const std::vector<BlockPair> expected{{1, 0, true}, {2, 0, false}};
   EXPECT_EQ(structure.Pairs(), expected);
   EXPECT_EQ(structure.num_entries(), 5);
-  EXPECT_TRUE(structure.affine_pair(structure.FindEntry(2, 2)));
+  EXPECT_TRUE(structure.head_pair(structure.FindEntry(2, 2)));
   EXPECT_EQ(structure.num_values(), 4u + 6u + 4u + 9u + 4u);
 }
 

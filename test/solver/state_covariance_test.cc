@@ -1,7 +1,7 @@
 // Covariances against those of Ceres, and where there are none.
 #include <ceres_ed/graph/warp.h>
-#include <ceres_ed/solver/state_covariance.h>
-#include <ceres_ed/solver/variance_factor.h>
+#include <ceres_ed/solver/covariance/state_covariance.h>
+#include <ceres_ed/solver/covariance/variance_factor.h>
 
 #include <cmath>
 #include <memory>

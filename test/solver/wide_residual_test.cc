@@ -1,7 +1,7 @@
 // Residuals on many nodes at once, which the normal equations give dual unknowns.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
-#include <ceres_ed/solver/normal_equations.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/solver/strategy.h>
 
 #include <cmath>

@@ -1,9 +1,9 @@
 // Batch against two-level: a heart of which a camera sees less than half, fitted both ways.
 #include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/registration/evaluation.h>
 #include <ceres_ed/registration/fit.h>
-#include <ceres_ed/testing/synthetic_pairs.h>
+#include <ceres_ed/simulation/pairs.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/sequence/depth_sequence.h>
+#include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam.h>
 
 #include <cstdio>

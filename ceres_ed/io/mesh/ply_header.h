@@ -1,0 +1,34 @@
+// The header of a PLY file, read and written.
+#ifndef CERES_ED_IO_MESH_PLY_HEADER_H_
+#define CERES_ED_IO_MESH_PLY_HEADER_H_
+
+#include <ceres_ed/io/mesh/ply_document.h>
+#include <ceres_ed/util/status.h>
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace ceres_ed {
+
+struct PlyHeader {
+  // Elements and properties with counts and types, their values still empty.
+  PlyDocument document;
+  // Bytes up to and with the end of the line `end_header`.
+  std::size_t size = 0;
+  // Lines up to and with `end_header`.
+  int num_lines = 0;
+  // Whether all lines end the way the first does (LF or CR LF).
+  bool uniform_line_ends = true;
+};
+
+// Returns the header at the start of `text` (the first bytes of the file `path`), or an error that
+// names the line and what was expected. Checks all but the counts, which only the body can tell.
+StatusOr<PlyHeader> ParsePlyHeader(const std::string& path, std::string_view text);
+
+// Returns the header of `document` as text, with LF line ends, up to and with `end_header`.
+std::string FormatPlyHeader(const PlyDocument& document);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_IO_MESH_PLY_HEADER_H_

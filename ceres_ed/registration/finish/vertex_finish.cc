@@ -1,0 +1,232 @@
+#include "ceres_ed/registration/finish/vertex_finish.h"
+
+#include <ceres_ed/geometry/noise_estimate.h>
+#include <ceres_ed/geometry/welded_mesh.h>
+#include <ceres_ed/linear_algebra/sparse_cholesky.h>
+#include <ceres_ed/registration/finish/finish_matching.h>
+#include <ceres_ed/registration/finish/fold_guard.h>
+#include <ceres_ed/util/timer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <sstream>
+#include <utility>
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <glog/logging.h>
+
+namespace ceres_ed {
+namespace {
+
+// Of the smoothing, per ratio of noise and signal.
+constexpr double kSmoothingPerNoise = 3.0;
+// Edges of an inner vertex of a regular mesh: brings the smoothing to edges.
+constexpr double kUsualDegree = 6.0;
+// Against at most about 1 of all that is matched with a vertex.
+constexpr double kLandmarkWeight = 1e3;
+constexpr double kFixedWeight = 1e6;
+
+// In edges of the source: more than this is noise of the source, too, and no finer shape.
+constexpr double kShapeRoughness = 0.06;
+// Of the variance that is taken for shape: a part of a shape may be rougher than the whole.
+constexpr double kRoughnessMargin = 1.5;
+
+// One finish: what its rounds share.
+class Finisher {
+ public:
+  Finisher(const FinishInput& input, const FinishOptions& options)
+      : input_(input),
+        options_(options),
+        mesh_(BuildWeldedMesh(input.source->cloud(), input.source->topology())),
+        start_(AtVertices(*input.points)),
+        normals_(AtVertices(*input.normals)),
+        points_(start_),
+        displacements_(Eigen::MatrixXd::Zero(mesh_.num_vertices(), 3)) {}
+
+  FinishResult Run();
+
+ private:
+  std::vector<Eigen::Vector3d> AtVertices(const std::vector<Eigen::Vector3d>& values) const;
+  // What the noise asks for.
+  double Smoothing(const FinishMatcher& matcher) const;
+  void PrepareSmoothness();
+  // Puts the weights of `pairs` into the matrix and factorises it.
+  void Factorize(const std::vector<FinishPair>& pairs);
+  // Half the gradient of the objective.
+  Eigen::MatrixXd Gradient(const std::vector<FinishPair>& pairs) const;
+  void Step(const std::vector<FinishPair>& pairs);
+  void Conclude(const std::vector<FinishPair>& pairs);
+
+  const FinishInput& input_;
+  const FinishOptions& options_;
+  const WeldedMesh mesh_;
+  const std::vector<Eigen::Vector3d> start_;
+  const std::vector<Eigen::Vector3d> normals_;
+  std::vector<Eigen::Vector3d> points_;
+  Eigen::MatrixXd displacements_;
+  // lambda B, and what is factorised.
+  SparseCholesky::Matrix smoothness_;
+  SparseCholesky::Matrix matrix_;
+  std::unique_ptr<SparseCholesky> factor_;
+  double epsilon_ = 0.0;
+  FinishResult result_;
+};
+
+std::vector<Eigen::Vector3d> Finisher::AtVertices(
+    const std::vector<Eigen::Vector3d>& values) const {
+  CHECK_EQ(values.size(), mesh_.vertex_of_point.size());
+  std::vector<Eigen::Vector3d> picked;
+  picked.reserve(mesh_.point_of_vertex.size());
+  for (const int point : mesh_.point_of_vertex) picked.push_back(values[point]);
+  return picked;
+}
+
+double Finisher::Smoothing(const FinishMatcher& matcher) const {
+  if (input_.noise <= 0.0) return options_.smoothing;
+  const double signal_squared =
+      std::pow(matcher.robust_plane_distance(), 2) - input_.noise * input_.noise;
+  if (signal_squared <= 0.0) return std::numeric_limits<double>::infinity();
+  return std::max(options_.smoothing,
+                  kSmoothingPerNoise * input_.noise / std::sqrt(signal_squared));
+}
+
+void Finisher::PrepareSmoothness() {
+  const double lambda = std::pow(result_.smoothing, 4) / kUsualDegree;
+  epsilon_ = std::pow(result_.smoothing / options_.fade, 4);
+  smoothness_ = SquaredLaplacian(mesh_);
+  smoothness_ *= lambda;
+  matrix_ = smoothness_;
+  factor_ = std::make_unique<SparseCholesky>(matrix_);
+}
+
+void Finisher::Factorize(const std::vector<FinishPair>& pairs) {
+  Eigen::VectorXd weights = Eigen::VectorXd::Constant(mesh_.num_vertices(), epsilon_);
+  // |sum_i b_i x_i|^2 <= sum_i b_i |x_i|^2 for a blend b.
+  for (const FinishPair& pair : pairs) {
+    for (int k = 0; k < 3; ++k) weights[pair.vertices[k]] += pair.weight * pair.blend[k];
+  }
+  for (const Correspondence& landmark : input_.landmarks) {
+    weights[mesh_.vertex_of_point[landmark.point]] += kLandmarkWeight;
+  }
+  for (const Correspondence& fixed : input_.fixed) {
+    weights[mesh_.vertex_of_point[fixed.point]] += kFixedWeight;
+  }
+  // The diagonal is the first entry of its column.
+  for (int v = 0; v < mesh_.num_vertices(); ++v) {
+    const int diagonal = matrix_.outerIndexPtr()[v];
+    matrix_.valuePtr()[diagonal] = smoothness_.valuePtr()[diagonal] + weights[v];
+  }
+  CHECK(factor_->Factorize(matrix_)) << "a sum of squares and a positive diagonal";
+}
+
+Eigen::MatrixXd Finisher::Gradient(const std::vector<FinishPair>& pairs) const {
+  Eigen::MatrixXd gradient = epsilon_ * displacements_;
+  gradient += smoothness_.selfadjointView<Eigen::Lower>() * displacements_;
+  const double share = options_.point_to_point_share;
+  for (const FinishPair& pair : pairs) {
+    Eigen::Vector3d gap = -pair.target;
+    for (int k = 0; k < 3; ++k) gap += pair.blend[k] * points_[pair.vertices[k]];
+    const Eigen::Vector3d pull =
+        pair.weight * ((1.0 - share) * pair.normal.dot(gap) * pair.normal + share * gap);
+    for (int k = 0; k < 3; ++k) gradient.row(pair.vertices[k]) += pair.blend[k] * pull;
+  }
+  for (const Correspondence& landmark : input_.landmarks) {
+    const int v = mesh_.vertex_of_point[landmark.point];
+    gradient.row(v) += kLandmarkWeight * (points_[v] - landmark.target);
+  }
+  return gradient;
+}
+
+void Finisher::Step(const std::vector<FinishPair>& pairs) {
+  displacements_ -= factor_->Solve(Gradient(pairs));
+  for (const Correspondence& fixed : input_.fixed) {
+    displacements_.row(mesh_.vertex_of_point[fixed.point]).setZero();
+  }
+  for (int v = 0; v < mesh_.num_vertices(); ++v) {
+    points_[v] = start_[v] + displacements_.row(v).transpose();
+  }
+}
+
+void Finisher::Conclude(const std::vector<FinishPair>& pairs) {
+  DampFolds(mesh_, start_, normals_, &points_);
+  result_.moved = true;
+  result_.pairs = static_cast<int>(pairs.size());
+  double sum_plane = 0.0;
+  double sum_point = 0.0;
+  for (const FinishPair& pair : pairs) {
+    Eigen::Vector3d gap = -pair.target;
+    for (int k = 0; k < 3; ++k) gap += pair.blend[k] * points_[pair.vertices[k]];
+    sum_plane += std::pow(pair.normal.dot(gap), 2);
+    sum_point += gap.squaredNorm();
+  }
+  if (pairs.empty()) return;
+  result_.rms_plane = std::sqrt(sum_plane / result_.pairs);
+  result_.rms_point = std::sqrt(sum_point / result_.pairs);
+}
+
+FinishResult Finisher::Run() {
+  const Timer clock;
+  Timer timer;
+  result_.points = *input_.points;
+  FinishMatcher matcher(*input_.source, mesh_, normals_, *input_.target, input_.matching);
+  for (int round = 0; round < options_.rounds; ++round) {
+    timer.Restart();
+    const std::vector<FinishPair> pairs = matcher.Match(points_, options_.loss_width);
+    result_.times.match += timer.Restart();
+    if (round == 0) {
+      result_.smoothing = Smoothing(matcher);
+      if (pairs.empty() || result_.smoothing > options_.max_smoothing) return std::move(result_);
+      PrepareSmoothness();
+    }
+    Factorize(pairs);
+    result_.times.factor += timer.Restart();
+    for (int step = 0; step < options_.steps; ++step) Step(pairs);
+    result_.times.solve += timer.Restart();
+    if (round + 1 == options_.rounds) Conclude(pairs);
+  }
+  for (std::size_t p = 0; p < result_.points.size(); ++p) {
+    result_.points[p] = points_[mesh_.vertex_of_point[p]];
+  }
+  result_.times.other =
+      clock.Seconds() - result_.times.match - result_.times.factor - result_.times.solve;
+  return std::move(result_);
+}
+
+}  // namespace
+
+bool FinishOptions::IsValid(std::string* error) const {
+  std::ostringstream message;
+  if (rounds < 1) {
+    message << "finish.rounds is " << rounds << ", expected >= 1";
+  } else if (steps < 1) {
+    message << "finish.steps is " << steps << ", expected >= 1";
+  } else if (!(smoothing > 0.0 && std::isfinite(smoothing))) {
+    message << "finish.smoothing is " << smoothing << ", expected a finite number > 0";
+  } else if (!(max_smoothing >= 0.0 && std::isfinite(max_smoothing))) {
+    message << "finish.max_smoothing is " << max_smoothing << ", expected a finite number >= 0";
+  } else if (!(fade > 0.0 && std::isfinite(fade))) {
+    message << "finish.fade is " << fade << ", expected a finite number > 0";
+  } else if (!(point_to_point_share >= 0.0 && point_to_point_share <= 1.0)) {
+    message << "finish.point_to_point_share is " << point_to_point_share << ", expected in [0, 1]";
+  } else if (!(loss_width > 0.0)) {
+    message << "finish.loss_width is " << loss_width << ", expected > 0";
+  }
+  *error = message.str();
+  return error->empty();
+}
+
+double FinishNoise(const Surface& source, const Surface& target) {
+  const double of_source = EstimateNoise(source.cloud().points, source.topology());
+  const double of_target = EstimateNoise(target.cloud().points, target.topology());
+  const double shape = std::min(of_source, kShapeRoughness * MeanEdgeLength(source.topology()));
+  return std::sqrt(std::max(0.0, of_target * of_target - kRoughnessMargin * shape * shape));
+}
+
+FinishResult FinishVertices(const FinishInput& input, const FinishOptions& options) {
+  return Finisher(input, options).Run();
+}
+
+}  // namespace ceres_ed

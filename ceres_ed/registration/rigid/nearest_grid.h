@@ -1,0 +1,40 @@
+// The roughly nearest point of a set in constant time.
+#ifndef CERES_ED_REGISTRATION_RIGID_NEAREST_GRID_H_
+#define CERES_ED_REGISTRATION_RIGID_NEAREST_GRID_H_
+
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// A grid of cubes around points, each with the point nearest to its centre.
+class NearestGrid {
+ public:
+  // Cubes of edge `cell` > 0, larger where there would be too many of them; those with no point
+  // within `reach` >= 0 of their centre are empty.
+  NearestGrid(const std::vector<Eigen::Vector3d>& points, double cell, double reach);
+
+  // The index of the point nearest to the centre of the cube that holds `query`; -1 where the cube
+  // is empty and outside of the grid.
+  int Nearest(const Eigen::Vector3d& query) const {
+    const Eigen::Vector3d at = (query - corner_) * per_cell_;
+    if (!(at.array() >= 0.0).all() || !(at.array() < size_.cast<double>().array()).all()) return -1;
+    return cells_[Cell(at.cast<int>())];
+  }
+
+ private:
+  std::size_t Cell(const Eigen::Vector3i& at) const {
+    return (static_cast<std::size_t>(at[2]) * size_[1] + at[1]) * size_[0] + at[0];
+  }
+
+  Eigen::Vector3d corner_;
+  double per_cell_;
+  Eigen::Vector3i size_;
+  std::vector<int> cells_;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_REGISTRATION_RIGID_NEAREST_GRID_H_

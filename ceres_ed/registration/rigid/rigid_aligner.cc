@@ -1,0 +1,269 @@
+#include "ceres_ed/registration/rigid/rigid_aligner.h"
+
+#include <ceres_ed/util/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+
+namespace ceres_ed {
+namespace {
+
+constexpr int kMinPairs = 6;
+// Weight of point-to-point beside point-to-plane.
+constexpr double kPointShare = 0.1;
+// A direction in which the mean squared normal displacement of a unit motion is below this isn't
+// determined by point-to-plane distances, unless a step along it explains this share of them.
+constexpr double kLeastCurvature = 0.05;
+constexpr double kLeastExplained = 0.1;
+// Distances below this fraction of the score's width are rounding.
+constexpr double kNegligible = 1e-4;
+
+// Angle between normals at which a point counts half as missed.
+constexpr double kAngleWidth = 30.0 * M_PI / 180.0;
+// Share of the surface that is explained worse in the total.
+constexpr double kWorseShare = 0.2;
+
+}  // namespace
+
+// A pair in the target frame: where the source point is, and the plane that it should be on.
+struct RigidAligner::PlanePair {
+  Eigen::Vector3d moved;
+  Eigen::Vector3d target;
+  Eigen::Vector3d normal;
+  double squared_distance = 0.0;
+  // Between the normals.
+  double cosine = -1.0;
+  bool agrees = false;
+  bool on_border = false;
+  bool found = false;
+
+  bool IsUsable() const { return found && agrees && !on_border; }
+};
+
+// The normal equations of a step; the right side apart for the two kinds of distance.
+struct RigidAligner::StepSums {
+  Eigen::Matrix<double, 7, 7> H = Eigen::Matrix<double, 7, 7>::Zero();
+  Vector7 plane_b = Vector7::Zero();
+  Vector7 point_b = Vector7::Zero();
+  double plane_energy = 0.0;
+  double weight = 0.0;
+  // Weighted sum of squared levers.
+  double spread = 0.0;
+};
+
+RigidSide MakeRigidSide(const Surface& surface, int samples) {
+  return {&surface.cloud().points,
+          &surface.cloud().normals,
+          &surface.topology().is_border,
+          &surface.tree(),
+          SamplePoints(surface, samples)};
+}
+
+RigidSide MakeRigidSide(const CoarseSurface& surface, int samples) {
+  RigidSide side{&surface.points(), &surface.normals(), &surface.is_border(), &surface.tree(), {}};
+  const int count = std::min(samples, surface.size());
+  for (int i = 0; i < count; ++i) {
+    side.samples.push_back(static_cast<int>(static_cast<long>(i) * surface.size() / count));
+  }
+  return side;
+}
+
+double RigidScore::Total() const {
+  return (1.0 - kWorseShare) * std::min(source_missed, target_missed) +
+         kWorseShare * std::max(source_missed, target_missed);
+}
+
+RigidAligner::RigidAligner(RigidSide source, RigidSide target, const RigidAlignerOptions& options)
+    : source_(std::move(source)),
+      target_(std::move(target)),
+      options_(options),
+      min_cosine_(std::cos(options.max_angle_deg * M_PI / 180.0)) {}
+
+std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose,
+                                                         std::vector<int>* nearest) const {
+  constexpr double kAnywhere = std::numeric_limits<double>::infinity();
+  const Similarity source_from_target = pose.Inverse();
+  const int num_forward = static_cast<int>(source_.samples.size());
+  std::vector<PlanePair> pairs(source_.samples.size() + target_.samples.size());
+  nearest->resize(pairs.size(), -1);
+  const auto agreement = [&](const Eigen::Vector3d& source_normal, const Eigen::Vector3d& n) {
+    const double cosine = (pose.rotation * source_normal).dot(n);
+    return options_.oriented ? cosine : std::abs(cosine);
+  };
+  const auto match = [&](int i) {
+    PlanePair& pair = pairs[i];
+    if (i < num_forward) {
+      const int point = source_.samples[i];
+      pair.moved = pose * (*source_.points)[point];
+      const Neighbor hit = target_.tree->NearestWithin(pair.moved, kAnywhere, (*nearest)[i]);
+      if (!hit.found()) return;
+      (*nearest)[i] = hit.index;
+      pair.target = (*target_.points)[hit.index];
+      pair.normal = (*target_.normals)[hit.index];
+      pair.on_border = (*target_.is_border)[hit.index] != 0;
+      pair.cosine = agreement((*source_.normals)[point], pair.normal);
+    } else {
+      const int point = target_.samples[i - num_forward];
+      pair.target = (*target_.points)[point];
+      pair.normal = (*target_.normals)[point];
+      const Neighbor hit =
+          source_.tree->NearestWithin(source_from_target * pair.target, kAnywhere, (*nearest)[i]);
+      if (!hit.found()) return;
+      (*nearest)[i] = hit.index;
+      pair.moved = pose * (*source_.points)[hit.index];
+      pair.on_border = (*source_.is_border)[hit.index] != 0;
+      pair.cosine = agreement((*source_.normals)[hit.index], pair.normal);
+    }
+    pair.squared_distance = (pair.moved - pair.target).squaredNorm();
+    pair.agrees = pair.cosine >= min_cosine_;
+    pair.found = true;
+  };
+  ParallelFor(options_.num_threads, static_cast<int>(pairs.size()), [&](int begin, int end) {
+    for (int i = begin; i < end; ++i) match(i);
+  });
+  return pairs;
+}
+
+RigidScore RigidAligner::Score(const Similarity& pose) const {
+  std::vector<int> nearest;
+  const std::vector<PlanePair> pairs = Pairs(pose, &nearest);
+  const std::size_t num_forward = source_.samples.size();
+  const double scale = 1.0 / (options_.width * options_.width);
+  double missed[2] = {0.0, 0.0};
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const PlanePair& pair = pairs[i];
+    double share = 1.0;
+    if (pair.found && pair.agrees) {
+      const double angle = std::acos(std::clamp(pair.cosine, -1.0, 1.0)) / kAngleWidth;
+      const Eigen::Vector3d gap = pair.moved - pair.target;
+      const double off = pair.normal.dot(gap);
+      const double along = std::max(
+          0.0, std::sqrt(std::max(0.0, pair.squared_distance - off * off)) - options_.slack);
+      const double q = (off * off + along * along) * scale + angle * angle;
+      share = q / (1.0 + q);
+    }
+    missed[i < num_forward ? 0 : 1] += share;
+  }
+  RigidScore score;
+  if (num_forward > 0) score.source_missed = missed[0] / static_cast<double>(num_forward);
+  if (pairs.size() > num_forward) {
+    score.target_missed = missed[1] / static_cast<double>(pairs.size() - num_forward);
+  }
+  return score;
+}
+
+// One Gauss-Newton step of the reweighted sum of point-to-plane and, with a small share,
+// point-to-point distances; false when it can't be taken.
+bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  int count = 0;
+  for (const PlanePair& pair : pairs) {
+    if (!pair.IsUsable()) continue;
+    center += pair.moved;
+    ++count;
+  }
+  if (count < kMinPairs) return false;
+  center /= count;
+  StepSums sums;
+  for (const PlanePair& pair : pairs) {
+    if (!pair.IsUsable()) continue;
+    const Eigen::Vector3d arm = pair.moved - center;
+    const Eigen::Vector3d gap = pair.moved - pair.target;
+    const double ratio = sigma * sigma / (sigma * sigma + pair.squared_distance);
+    const double weight = ratio * ratio;
+    const auto derivative = [&arm](const Eigen::Vector3d& direction) {
+      Vector7 J;
+      J << arm.cross(direction), direction, direction.dot(arm);
+      return J;
+    };
+    const Vector7 J_plane = derivative(pair.normal);
+    const double r_plane = pair.normal.dot(gap);
+    sums.H += weight * J_plane * J_plane.transpose();
+    sums.plane_b -= weight * r_plane * J_plane;
+    sums.plane_energy += weight * r_plane * r_plane;
+    for (int axis = 0; axis < 3; ++axis) {
+      const Vector7 J = derivative(Eigen::Vector3d::Unit(axis));
+      sums.H += kPointShare * weight * J * J.transpose();
+      sums.point_b -= kPointShare * weight * gap[axis] * J;
+    }
+    sums.weight += weight;
+    sums.spread += weight * arm.squaredNorm();
+  }
+  if (!(sums.spread > 0.0)) return false;
+  const Vector7 delta = SolveObserved(sums);
+  if (!delta.allFinite()) return false;
+  const double angle = delta.head<3>().norm();
+  Similarity step;
+  if (angle > 0.0) {
+    step.rotation = Eigen::AngleAxisd(angle, Eigen::Vector3d(delta.head<3>() / angle));
+  }
+  if (options_.with_scale) step.scale = std::exp(std::clamp(delta[6], -0.2, 0.2));
+  step.translation = center + delta.segment<3>(3) - step.scale * (step.rotation * center);
+  *pose = step * *pose;
+  return true;
+}
+
+// The step in the directions that the pairs really determine. A sheet slides in its plane and a
+// round body turns about its axis at next to no cost: where the surfaces differ by more than a
+// rigid motion they would do so, so a direction of little curvature is left as it is (Zhang et al.
+// 2016, "On degeneracy") unless moving along it explains a good part of the point-to-plane
+// distances. Turns are measured at the root mean square lever, so that all directions have the unit
+// of a length.
+RigidAligner::Vector7 RigidAligner::SolveObserved(const StepSums& sums) const {
+  const double lever = std::sqrt(sums.spread / sums.weight);
+  Vector7 unit;
+  unit << Eigen::Vector3d::Constant(lever), Eigen::Vector3d::Ones(), lever;
+  const Vector7 per_unit = unit.cwiseInverse();
+  const int size = options_.with_scale ? 7 : 6;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
+      (per_unit.asDiagonal() * sums.H * per_unit.asDiagonal()).topLeftCorner(size, size));
+  const Eigen::MatrixXd& directions = eigen.eigenvectors();
+  const Eigen::VectorXd plane =
+      directions.transpose() * per_unit.cwiseProduct(sums.plane_b).head(size);
+  Eigen::VectorXd along =
+      plane + directions.transpose() * per_unit.cwiseProduct(sums.point_b).head(size);
+  const double unexplained =
+      sums.plane_energy + sums.weight * std::pow(kNegligible * options_.width, 2);
+  for (int i = 0; i < size; ++i) {
+    const double curvature = eigen.eigenvalues()[i];
+    const bool curved = curvature > (kPointShare + kLeastCurvature) * sums.weight;
+    const bool explains = plane[i] * plane[i] > kLeastExplained * curvature * unexplained;
+    along[i] = curvature > 0.0 && (curved || explains) ? along[i] / curvature : 0.0;
+  }
+  Vector7 delta = Vector7::Zero();
+  delta.head(size) = directions * along;
+  return per_unit.cwiseProduct(delta);
+}
+
+Similarity RigidAligner::Refine(Similarity pose, int iterations) const {
+  constexpr double kConverged = 1e-7;
+  const double floor = 1e-3 * options_.width;
+  std::vector<int> nearest;
+  for (int i = 0; i < iterations; ++i) {
+    const std::vector<PlanePair> pairs = Pairs(pose, &nearest);
+    std::vector<double> squared;
+    for (const PlanePair& pair : pairs) {
+      if (pair.IsUsable()) squared.push_back(pair.squared_distance);
+    }
+    if (squared.empty()) return pose;
+    const auto middle = squared.begin() + static_cast<long>(squared.size() / 2);
+    std::nth_element(squared.begin(), middle, squared.end());
+    const double sigma = std::max(floor, 2.0 * 1.4826 * std::sqrt(*middle));
+    const Similarity before = pose;
+    if (!Step(pairs, sigma, &pose)) return before;
+    const Similarity change = pose * before.Inverse();
+    if (change.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kConverged &&
+        (pose.translation - before.translation).norm() < kConverged * options_.width &&
+        std::abs(change.scale - 1.0) < kConverged) {
+      break;
+    }
+  }
+  return pose;
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,191 @@
+#include "ceres_ed/registration/rigid/rigid_registration.h"
+
+#include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/registration/rigid/coarse_surface.h>
+#include <ceres_ed/registration/rigid/rigid_aligner.h>
+#include <ceres_ed/registration/rigid/rigid_search.h>
+#include <ceres_ed/registration/rigid/rigid_starts.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <vector>
+
+namespace ceres_ed {
+namespace {
+
+// Starts are sifted: all of them roughly, the best of them better, the winner to the end.
+constexpr int kSearchedStarts = 25;
+constexpr int kSiftSamples = 100;
+constexpr int kSiftIterations = 8;
+constexpr int kSiftKept = 4;
+constexpr int kCoarseSamples = 400;
+constexpr int kCoarseIterations = 15;
+constexpr int kFineSamples = 700;
+constexpr int kFineIterations = 30;
+// Edge of the cubes of the coarse surfaces: a fraction of the smaller one's diagonal, more where
+// normals turn by more than an angle from point to point (noise), and no less than a fraction of
+// the larger one's diagonal.
+constexpr double kSpacing = 0.025;
+constexpr double kCalmTurn = 25.0 * M_PI / 180.0;
+constexpr double kMaxNoiseFactor = 2.0;
+constexpr double kLeastSpacing = 0.012;
+// Passes of smoothing, times the square of the noise's factor.
+constexpr double kSmoothing = 3.0;
+
+struct ScoredPose {
+  Similarity pose;
+  RigidScore score;
+};
+
+// How the surfaces are thinned out; a length in the unit of the target.
+struct Coarseness {
+  double spacing = 1.0;
+  int passes = 0;
+};
+
+Coarseness ChooseCoarseness(const Surface& source, const Surface& target, double scale) {
+  const double source_diagonal = scale * Diagonal(source.cloud().points);
+  const double target_diagonal = Diagonal(target.cloud().points);
+  const auto [smaller, larger] = std::minmax(source_diagonal, target_diagonal);
+  const double turn = std::max(MedianNormalTurn(source), MedianNormalTurn(target));
+  const double noise_factor = std::clamp(turn / kCalmTurn, 1.0, kMaxNoiseFactor);
+  Coarseness coarseness;
+  coarseness.passes = static_cast<int>(std::lround(kSmoothing * noise_factor * noise_factor));
+  const double spacing = std::max(kSpacing * noise_factor * smaller, kLeastSpacing * larger);
+  // Any will do where all points are one.
+  if (spacing > 0.0) coarseness.spacing = spacing;
+  return coarseness;
+}
+
+RigidAlignerOptions AlignerOptions(const Surface& source,
+                                   const Surface& target,
+                                   const RigidOptions& options) {
+  RigidAlignerOptions aligner;
+  aligner.with_scale = options.with_scale;
+  aligner.oriented = source.cloud().normals_oriented && target.cloud().normals_oriented;
+  aligner.max_angle_deg = options.max_angle_deg;
+  aligner.width = options.score_width * Diagonal(target.cloud().points);
+  if (!(aligner.width > 0.0)) aligner.width = 1.0;
+  aligner.num_threads = options.num_threads;
+  return aligner;
+}
+
+// The work of AlignRigid up to the last refinement, on coarse surfaces.
+class StartFinder {
+ public:
+  StartFinder(const Surface& source,
+              const Surface& target,
+              const Similarity& initial,
+              const RigidOptions& options)
+      : source_surface_(source),
+        target_surface_(target),
+        initial_(initial),
+        options_(options),
+        aligner_options_(AlignerOptions(source, target, options)),
+        coarseness_(ChooseCoarseness(source, target, initial.scale)),
+        source_(source, coarseness_.spacing / initial.scale, coarseness_.passes),
+        target_(target, coarseness_.spacing, coarseness_.passes) {
+    aligner_options_.slack = coarseness_.spacing;
+  }
+
+  RigidAligner Aligner(int samples) const {
+    return {MakeRigidSide(source_, samples), MakeRigidSide(target_, samples), aligner_options_};
+  }
+
+  // The best pose from anywhere; counts the starts.
+  ScoredPose Search(const RigidAligner& coarse, int* starts_tried) const;
+
+ private:
+  bool Stopped() const { return options_.should_stop && options_.should_stop(); }
+
+  const Surface& source_surface_;
+  const Surface& target_surface_;
+  const Similarity& initial_;
+  const RigidOptions& options_;
+  RigidAlignerOptions aligner_options_;
+  Coarseness coarseness_;
+  CoarseSurface source_;
+  CoarseSurface target_;
+};
+
+ScoredPose Refined(const RigidAligner& aligner, const Similarity& start, int iterations) {
+  const Similarity pose = aligner.Refine(start, iterations);
+  return {pose, aligner.Score(pose)};
+}
+
+ScoredPose StartFinder::Search(const RigidAligner& coarse, int* starts_tried) const {
+  RigidSearchOptions search;
+  search.scale = initial_.scale;
+  search.oriented = aligner_options_.oriented;
+  search.max_count = kSearchedStarts;
+  search.should_stop = options_.should_stop;
+  std::vector<Similarity> starts =
+      RigidStarts(source_surface_.cloud().points, target_surface_.cloud().points, initial_);
+  const std::vector<Similarity> found = SearchRigidly(source_, target_, search);
+  starts.insert(starts.end(), found.begin(), found.end());
+  const RigidAligner rough = Aligner(kSiftSamples);
+  std::vector<ScoredPose> sifted;
+  for (const Similarity& start : starts) {
+    if (Stopped()) break;
+    sifted.push_back(Refined(rough, start, kSiftIterations));
+    ++*starts_tried;
+  }
+  std::stable_sort(sifted.begin(), sifted.end(), [](const ScoredPose& a, const ScoredPose& b) {
+    return a.score.Total() < b.score.Total();
+  });
+  if (sifted.size() > kSiftKept) sifted.resize(kSiftKept);
+  ScoredPose best{initial_, RigidScore()};
+  for (const ScoredPose& start : sifted) {
+    if (Stopped()) break;
+    const ScoredPose candidate = Refined(coarse, start.pose, kCoarseIterations);
+    if (candidate.score.Total() < best.score.Total()) best = candidate;
+  }
+  return best;
+}
+
+}  // namespace
+
+bool RigidOptions::IsValid(std::string* error) const {
+  std::ostringstream message;
+  if (!(max_angle_deg > 0.0 && max_angle_deg <= 180.0)) {
+    message << "max_angle_deg is " << max_angle_deg << ", expected in (0, 180]";
+  } else if (!(score_width > 0.0)) {
+    message << "score_width is " << score_width << ", expected > 0";
+  } else if (!(good_score >= 0.0 && good_score <= 1.0)) {
+    message << "good_score is " << good_score << ", expected in [0, 1]";
+  } else if (!(preference > 0.0 && preference <= 1.0)) {
+    message << "preference is " << preference << ", expected in (0, 1]";
+  } else if (num_threads < 1) {
+    message << "num_threads is " << num_threads << ", expected >= 1";
+  }
+  *error = message.str();
+  return error->empty();
+}
+
+RigidResult AlignRigid(const Surface& source,
+                       const Surface& target,
+                       const Similarity& initial,
+                       const RigidOptions& options) {
+  const RigidAligner fine(MakeRigidSide(source, kFineSamples),
+                          MakeRigidSide(target, kFineSamples),
+                          AlignerOptions(source, target, options));
+  const StartFinder finder(source, target, initial, options);
+  const RigidAligner coarse = finder.Aligner(kCoarseSamples);
+  RigidResult result;
+  result.initial_score = fine.Score(initial).Total();
+  ScoredPose best = Refined(coarse, initial, kCoarseIterations);
+  result.starts_tried = 1;
+  const bool stopped = options.should_stop && options.should_stop();
+  if (best.score.Better() > options.good_score && !stopped) {
+    const ScoredPose found = finder.Search(coarse, &result.starts_tried);
+    // It has to prove itself against the given pose.
+    if (found.score.Total() < options.preference * best.score.Total()) best = found;
+  }
+  result.target_from_source = fine.Refine(best.pose, kFineIterations);
+  result.score = fine.Score(result.target_from_source).Total();
+  return result;
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,139 @@
+#include "ceres_ed/slam/frame/observed_surface.h"
+
+#include <ceres_ed/slam/frame/window_sums.h>
+#include <ceres_ed/util/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/LU>
+
+namespace ceres_ed {
+namespace {
+
+// Of the pixels in a window, this share must have a depth that belongs to the surface.
+constexpr double kMinCoverage = 0.4;
+
+// Patches whose deviations tell the noise: neighbours have most of their pixels in common.
+constexpr int kNoiseSamples = 20000;
+
+// Of every `step`-th valid patch; 0 without any.
+double MedianOfDeviations(const std::vector<SurfacePatch>& patches, int step) {
+  std::vector<double> deviations;
+  deviations.reserve(patches.size() / step + 1);
+  int skip = 0;
+  for (const SurfacePatch& patch : patches) {
+    if (!patch.valid() || skip-- > 0) continue;
+    skip = step - 1;
+    deviations.push_back(patch.deviation);
+  }
+  if (deviations.empty()) return 0.0;
+  const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
+  std::nth_element(deviations.begin(), middle, deviations.end());
+  return *middle;
+}
+
+// Makes patches of sums over windows.
+class PatchFitter {
+ public:
+  PatchFitter(DepthView depth,
+              const PinholeCamera& camera,
+              double scale,
+              const WindowOptions& options)
+      : depth_(depth),
+        camera_(camera),
+        scale_(scale),
+        cell_(options.cell),
+        windows_(depth, options) {
+    const double side = 2 * options.radius + 1;
+    min_count_ = kMinCoverage * side * side;
+  }
+
+  // Writes the patches of a row of cells, the middle of which is at v0.
+  void FitRow(int v0, SurfacePatch* patches) {
+    const WindowSums& sums = windows_.SumRow(v0);
+    for (int i = 0; i < windows_.count(); ++i) {
+      if (sums.n[i] < min_count_) continue;
+      const int u0 = std::min(i * cell_ + cell_ / 2, depth_.width() - 1);
+      Eigen::Vector3d abc;
+      if (SolvePlane(sums, i, &abc)) SetPatch(u0, v0, sums, i, abc, &patches[i]);
+    }
+  }
+
+ private:
+  // Least squares: q = a du + b dv + c. False where the pixels don't tell.
+  bool SolvePlane(const WindowSums& s, int i, Eigen::Vector3d* abc) const {
+    if (windows_.IsFull(i)) {
+      *abc = {s.uq[i] / windows_.full_square(),
+              s.vq[i] / windows_.full_square(),
+              s.q[i] / windows_.full_count()};
+      return true;
+    }
+    Eigen::Matrix3d normal_matrix;
+    normal_matrix << s.uu[i], s.uv[i], s.u[i], s.uv[i], s.vv[i], s.v[i], s.u[i], s.v[i], s.n[i];
+    Eigen::Matrix3d inverse;
+    bool invertible = false;
+    normal_matrix.computeInverseWithCheck(inverse, invertible, 1e-3);
+    if (!invertible) return false;
+    *abc = inverse * Eigen::Vector3d(s.uq[i], s.vq[i], s.q[i]);
+    return abc->z() > 0.0;
+  }
+
+  void SetPatch(int u0,
+                int v0,
+                const WindowSums& s,
+                int i,
+                const Eigen::Vector3d& abc,
+                SurfacePatch* patch) const {
+    const double z0 = static_cast<double>(depth_(u0, v0)) * scale_;
+    const double squares =
+        std::max(0.0, s.qq[i] - abc.dot(Eigen::Vector3d(s.uq[i], s.vq[i], s.q[i])));
+    // 1 = (a fx) X + (b fy) Y + (c + a (cx - u0) + b (cy - v0)) Z, lengths in z0.
+    const Eigen::Vector3d plane(
+        abc.x() * camera_.fx,
+        abc.y() * camera_.fy,
+        abc.z() + abc.x() * (camera_.cx - u0) + abc.y() * (camera_.cy - v0));
+    patch->point = camera_.BackProject(u0, v0, z0 / abc.z());
+    patch->normal = -plane.normalized();
+    // The spread of z0 / z is that of z / z0 to first order; three degrees of freedom are gone.
+    patch->deviation = std::sqrt(squares / (s.n[i] - 3.0)) * z0;
+  }
+
+  DepthView depth_;
+  const PinholeCamera& camera_;
+  double scale_;
+  int cell_;
+  double min_count_;
+  WindowSummer windows_;
+};
+
+}  // namespace
+
+ObservedSurface::ObservedSurface(DepthView depth,
+                                 const PinholeCamera& camera,
+                                 double scale,
+                                 const ObservedSurfaceOptions& options)
+    : camera_(camera),
+      cell_(options.cell),
+      patches_((depth.width() + options.cell - 1) / options.cell,
+               (depth.height() + options.cell - 1) / options.cell) {
+  WindowOptions windows;
+  windows.cell = options.cell;
+  windows.radius = options.radius;
+  windows.max_step =
+      std::tan(options.max_slope_deg * M_PI / 180.0) / std::min(camera.fx, camera.fy);
+  ParallelFor(options.num_threads, patches_.height(), [&](int begin, int end) {
+    PatchFitter fitter(depth, camera, scale, windows);
+    for (int j = begin; j < end; ++j) {
+      // The middle of the cell; the last ones may be cut off.
+      const int v0 = std::min(j * cell_ + cell_ / 2, depth.height() - 1);
+      fitter.FitRow(v0, &patches_(0, j));
+    }
+  });
+  const auto is_valid = [](const SurfacePatch& patch) { return patch.valid(); };
+  const std::vector<SurfacePatch>& patches = patches_.pixels();
+  num_valid_ = static_cast<int>(std::count_if(patches.begin(), patches.end(), is_valid));
+  noise_ = MedianOfDeviations(patches, 1 + num_valid_ / kNoiseSamples);
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,70 @@
+// A depth image as a surface: smoothed points with normals on a grid of pixels.
+#ifndef CERES_ED_SLAM_FRAME_OBSERVED_SURFACE_H_
+#define CERES_ED_SLAM_FRAME_OBSERVED_SURFACE_H_
+
+#include <ceres_ed/geometry/images.h>
+#include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/slam/slam_options.h>
+
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// The tangent plane of the surface at one pixel, camera frame.
+struct SurfacePatch {
+  Eigen::Vector3d point = Eigen::Vector3d::Zero();
+  // Unit length, toward the camera; zero where nothing was measured.
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  // Spread of the measured depths about the plane, along the optical axis.
+  double deviation = 0.0;
+
+  bool valid() const { return !normal.isZero(); }
+};
+
+// Patches at every `cell` pixels. A plane has an inverse depth that is affine in the pixel, so that
+// the fit is linear: 1/z = a u + b v + c.
+class ObservedSurface {
+ public:
+  // Lengths are those of `depth` times `scale` (map units a metre).
+  ObservedSurface(DepthView depth,
+                  const PinholeCamera& camera,
+                  double scale,
+                  const ObservedSurfaceOptions& options);
+
+  int width() const { return patches_.width(); }
+  int height() const { return patches_.height(); }
+  int cell() const { return cell_; }
+  const PinholeCamera& camera() const { return camera_; }
+  // Valid patches.
+  int num_valid() const { return num_valid_; }
+  // Median of the patches' deviation: the noise of a pixel, along the optical axis. 0 without any.
+  double noise() const { return noise_; }
+
+  const SurfacePatch& patch(int i, int j) const { return patches_(i, j); }
+  // The patch nearest to a pixel; null where there is none or the pixel is outside.
+  const SurfacePatch* Find(const Eigen::Vector2d& pixel) const {
+    // Before the cast, which has no meaning for numbers that no int holds.
+    if (!(pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera_.width - 0.5 &&
+          pixel.y() < camera_.height - 0.5)) {
+      return nullptr;
+    }
+    const int i = static_cast<int>(pixel.x() + 0.5) / cell_;
+    const int j = static_cast<int>(pixel.y() + 0.5) / cell_;
+    const SurfacePatch& patch = patches_(i, j);
+    return patch.valid() ? &patch : nullptr;
+  }
+
+ private:
+  PinholeCamera camera_;
+  int cell_;
+  int num_valid_ = 0;
+  double noise_ = 0.0;
+  Image<SurfacePatch> patches_;
+};
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SLAM_FRAME_OBSERVED_SURFACE_H_

@@ -1,0 +1,169 @@
+#include "ceres_ed/slam/frame/pixel_tracker.h"
+
+#include <ceres_ed/slam/checkpoint.h>
+#include <ceres_ed/util/parallel.h>
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+#include <glog/logging.h>
+#include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+namespace ceres_ed {
+namespace {
+
+using Pyramid = std::vector<cv::Mat>;
+
+std::vector<cv::Point2f> ToCv(const std::vector<Eigen::Vector2d>& pixels) {
+  std::vector<cv::Point2f> points;
+  points.reserve(pixels.size());
+  for (const Eigen::Vector2d& p : pixels) {
+    points.emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+  }
+  return points;
+}
+
+// The picture without its light: lamps move with the camera, and a gradient that stands still in
+// the picture pulls corners along. The logarithm turns light into an offset, which a high pass
+// takes out; what is left is brought to one contrast everywhere.
+cv::Mat Flatten(const cv::Mat& rgb, double radius) {
+  constexpr double kLeastContrast = 0.03;
+  constexpr double kGain = 40.0;
+  cv::Mat gray, log, mean, square, deviation, flat;
+  cv::cvtColor(rgb, gray, cv::COLOR_RGB2GRAY);
+  gray.convertTo(log, CV_32F, 1.0, 8.0);
+  cv::log(log, log);
+  cv::GaussianBlur(log, mean, cv::Size(), radius);
+  log -= mean;
+  cv::GaussianBlur(log.mul(log), square, cv::Size(), radius);
+  cv::sqrt(square, deviation);
+  cv::divide(log, deviation + kLeastContrast, log, kGain);
+  log.convertTo(flat, CV_8U, 1.0, 128.0);
+  return flat;
+}
+
+}  // namespace
+
+struct PixelTracker::Impl {
+  PixelTrackerOptions options;
+  cv::Mat gray;
+  Pyramid before;
+  Pyramid now;
+
+  // Makes the pyramid of `gray`.
+  void BuildPyramid() {
+    now.clear();
+    cv::buildOpticalFlowPyramid(
+        gray, now, cv::Size(options.window, options.window), options.pyramid_levels);
+  }
+
+  // Corners know nothing of one another, so that parts of them go the same ways. `end` and `found`
+  // have the size of `start`.
+  void Flow(const Pyramid& from,
+            const Pyramid& to,
+            const std::vector<cv::Point2f>& start,
+            std::vector<cv::Point2f>* end,
+            std::vector<unsigned char>* found) const {
+    const cv::TermCriteria stop(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 30, 0.01);
+    const auto count = static_cast<int>(start.size());
+    ParallelFor(options.num_threads, count, [&](int first, int last) {
+      const cv::Range part(first, last);
+      // Views of the vectors' own memory: their sizes are right, so that nothing is allocated.
+      cv::Mat part_end = cv::Mat(*end).rowRange(part);
+      cv::Mat part_found = cv::Mat(*found).rowRange(part);
+      cv::calcOpticalFlowPyrLK(from,
+                               to,
+                               cv::Mat(start).rowRange(part),
+                               part_end,
+                               part_found,
+                               cv::noArray(),
+                               cv::Size(options.window, options.window),
+                               options.pyramid_levels,
+                               stop,
+                               cv::OPTFLOW_USE_INITIAL_FLOW);
+    });
+  }
+};
+
+PixelTracker::PixelTracker(const PixelTrackerOptions& options) : impl_(new Impl) {
+  impl_->options = options;
+  // One thread: the same bytes whatever the machine.
+  cv::setNumThreads(1);
+}
+
+PixelTracker::~PixelTracker() = default;
+
+void PixelTracker::SetImage(ColorView image) {
+  // OpenCV only reads.
+  const cv::Mat rgb(image.height(),
+                    image.width(),
+                    CV_8UC3,
+                    const_cast<void*>(static_cast<const void*>(image.pixels())));
+  impl_->gray = Flatten(rgb, impl_->options.light_radius);
+  impl_->before = std::move(impl_->now);
+  impl_->BuildPyramid();
+}
+
+std::vector<TrackedPixel> PixelTracker::Track(const std::vector<Eigen::Vector2d>& pixels,
+                                              const std::vector<Eigen::Vector2d>& predicted) const {
+  CHECK_EQ(pixels.size(), predicted.size());
+  std::vector<TrackedPixel> tracked(pixels.size());
+  if (pixels.empty() || impl_->before.empty()) return tracked;
+  const std::vector<cv::Point2f> start = ToCv(pixels);
+  std::vector<cv::Point2f> end = ToCv(predicted);
+  std::vector<cv::Point2f> back;
+  std::vector<unsigned char> found(start.size()), found_back(start.size());
+  impl_->Flow(impl_->before, impl_->now, start, &end, &found);
+  // The way back is guessed by the same prediction, so that both ways have equally far to search.
+  back.reserve(end.size());
+  const std::vector<cv::Point2f> guess = ToCv(predicted);
+  for (std::size_t i = 0; i < end.size(); ++i) back.push_back(end[i] - (guess[i] - start[i]));
+  impl_->Flow(impl_->now, impl_->before, end, &back, &found_back);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double round_trip = std::hypot(back[i].x - start[i].x, back[i].y - start[i].y);
+    tracked[i].pixel = {end[i].x, end[i].y};
+    tracked[i].found = found[i] != 0 && found_back[i] != 0 && std::isfinite(round_trip) &&
+                       round_trip <= impl_->options.max_round_trip;
+  }
+  return tracked;
+}
+
+std::vector<Eigen::Vector2d> PixelTracker::Detect(const MaskImage& allowed,
+                                                  const std::vector<Eigen::Vector2d>& taken,
+                                                  int count) const {
+  std::vector<Eigen::Vector2d> corners;
+  if (count <= 0) return corners;
+  cv::Mat mask(allowed.height(), allowed.width(), CV_8UC1);
+  for (int v = 0; v < mask.rows; ++v) {
+    for (int u = 0; u < mask.cols; ++u) {
+      mask.at<unsigned char>(v, u) = allowed(u, v) != 0 ? 255 : 0;
+    }
+  }
+  const int radius = static_cast<int>(std::ceil(impl_->options.min_distance));
+  for (const cv::Point2f& p : ToCv(taken)) {
+    cv::circle(mask, cv::Point(cvRound(p.x), cvRound(p.y)), radius, cv::Scalar(0), cv::FILLED);
+  }
+  std::vector<cv::Point2f> found;
+  cv::goodFeaturesToTrack(
+      impl_->gray, found, count, impl_->options.quality, impl_->options.min_distance, mask);
+  for (const cv::Point2f& p : found) corners.emplace_back(p.x, p.y);
+  return corners;
+}
+
+void PixelTracker::Exchange(CheckpointArchive* archive) {
+  cv::Mat& gray = impl_->gray;
+  int height = gray.rows;
+  archive->Value("height", &height);
+  std::vector<std::uint8_t> pixels;
+  if (!gray.empty()) pixels.assign(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>());
+  archive->Array("pixels", &pixels);
+  // All else is made of these: the picture before is not looked at again.
+  if (archive->saving() || height <= 0 || pixels.empty()) return;
+  gray = cv::Mat(pixels, /*copyData=*/true).reshape(1, height);
+  impl_->BuildPyramid();
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,49 @@
+// Which points of the map the camera sees.
+#ifndef CERES_ED_SLAM_FRAME_VISIBILITY_H_
+#define CERES_ED_SLAM_FRAME_VISIBILITY_H_
+
+#include <ceres_ed/geometry/images.h>
+#include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/slam/map/deformable_map.h>
+
+#include <vector>
+
+#include <Eigen/Core>
+
+namespace ceres_ed {
+
+// A point in view, as the map is deformed now.
+struct VisiblePoint {
+  int slot = -1;
+  Eigen::Vector3d in_map = Eigen::Vector3d::Zero();
+  Eigen::Vector3d normal_in_map = Eigen::Vector3d::Zero();
+  Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+};
+
+struct VisibilityOptions {
+  // Width of a cell of the z-buffer: at least the distance of two points, map units, > 0.
+  double cell_size = 0.3;
+  // A point this far behind what is in front of it is hidden, map units, > 0.
+  double depth_tolerance = 0.5;
+  // Points whose normal is turned farther from the camera are not in view, degrees.
+  double max_view_angle_deg = 85.0;
+};
+
+// Returns the points in view, node by node: in the picture, facing the camera, and not behind the
+// warped map (z-buffer). Only points of nodes near the view are looked at.
+std::vector<VisiblePoint> FindVisible(const DeformableMap& map,
+                                      const CameraPose& camera_from_map,
+                                      const PinholeCamera& camera,
+                                      const VisibilityOptions& options);
+
+// Brings the points up to date after nodes or camera have moved.
+void UpdateVisible(const DeformableMap& map,
+                   const CameraPose& camera_from_map,
+                   const PinholeCamera& camera,
+                   std::vector<VisiblePoint>* points);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_SLAM_FRAME_VISIBILITY_H_

@@ -1,0 +1,137 @@
+// Level II: the PI nodes follow, all of them or by waves.
+#include <ceres_ed/graph/node_neighborhood.h>
+#include <ceres_ed/slam/levels/levels.h>
+#include <ceres_ed/slam/levels/window_observations.h>
+#include <ceres_ed/util/option_check.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+// A wave that goes on longer moves to and fro: what is left is left.
+constexpr int kMostWaves = 200;
+
+// What several solves did.
+void Add(const LevelReport& wave, LevelReport* all) {
+  all->status = wave.status;
+  all->variable_nodes += wave.variable_nodes;
+  all->iterations += wave.iterations;
+}
+
+}  // namespace
+
+bool LazyOptions::IsValid(std::string* error) const {
+  const auto require = [error](bool holds, const char* option, double value, const char* expected) {
+    return RequireOption(holds, option, value, expected, error);
+  };
+  return require(tolerance > 0.0, "lazy.tolerance", tolerance, "> 0") &&
+         require(reach >= 1, "lazy.reach", reach, ">= 1") &&
+         require(waves_per_frame >= 1, "lazy.waves_per_frame", waves_per_frame, ">= 1") &&
+         require(max_seeds >= 1, "lazy.max_seeds", max_seeds, ">= 1");
+}
+
+LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
+                                NodePriorSource* priors,
+                                DeformableMap* map) {
+  if (nodes.empty()) return LevelReport();
+  LevelWindow window = windows_.Build(map->graph(), map->state(), nodes, /*held=*/{});
+  if (priors != nullptr) priors->UpdatePriors(window.nodes, map);
+  const WindowObservations nothing({}, windows_, *map, window);
+  EnergyContext context = nothing.Context(window);
+  const std::vector<Eigen::Vector3d> previous = PreviousOf(window, *map);
+  if (!previous.empty()) context.node_previous = &previous;
+  ProblemBuilder builder(window.graph, /*has_camera=*/false);
+  for (Term& term : terms_) {
+    if (term.observation || term.name == "pose_prior") continue;
+    Collect(term.weight, term.loss, context, &term, &builder);
+  }
+  const ProblemConfig config = window.Config(/*camera_variable=*/false, SeamEdges::kKeep);
+  const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
+    return level_two_->Solve(builder, config, steps, &window.state, summary);
+  };
+  std::vector<double> motion;
+  const LevelReport report = Solve(options_.solver, solve, window, map, &motion);
+  if (report.status != SolveStatus::kFailed) {
+    pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/true);
+  }
+  return report;
+}
+
+template <typename Counts>
+LevelReport Levels::SendWaves(int most,
+                              Counts counts,
+                              NodePriorSource* priors,
+                              DeformableMap* map) {
+  const auto hidden = [this](int node) { return !point_relevant_.Has(node); };
+  LevelReport all;
+  for (int wave = 0; wave < most; ++wave) {
+    std::vector<int> seeds;
+    for (const int node : pending_.Unsettled()) {
+      if (hidden(node) && counts(node)) seeds.push_back(node);
+    }
+    if (seeds.empty()) break;
+    if (static_cast<int>(seeds.size()) > options_.lazy.max_seeds) {
+      const auto first = [this](int a, int b) {
+        return std::make_pair(-pending_.change(a), a) < std::make_pair(-pending_.change(b), b);
+      };
+      std::nth_element(seeds.begin(), seeds.begin() + options_.lazy.max_seeds, seeds.end(), first);
+      seeds.resize(options_.lazy.max_seeds);
+    }
+    front_.Clear();
+    for (const int node : seeds) front_.Add(node);
+    AddRings(map->graph(), options_.lazy.reach, hidden, &front_);
+    // A wave over most of them would go on to the rest: one solve takes all.
+    const int num_nodes = map->graph().num_nodes();
+    if (2 * front_.size() > num_nodes - point_relevant_.size()) {
+      for (int node = 0; node < num_nodes; ++node) {
+        if (hidden(node)) front_.Add(node);
+      }
+    }
+    front_.Sort();
+    const LevelReport report = SolveHidden(front_.nodes(), priors, map);
+    Add(report, &all);
+    if (report.status == SolveStatus::kFailed) break;
+  }
+  return all;
+}
+
+LevelReport Levels::SolveLevelTwo(NodePriorSource* priors, DeformableMap* map) {
+  if (IsLazy()) {
+    return SendWaves(
+        options_.lazy.waves_per_frame, [](int) { return true; }, priors, map);
+  }
+  std::vector<int> hidden;
+  for (int j = 0; j < map->graph().num_nodes(); ++j) {
+    if (!point_relevant_.Has(j)) hidden.push_back(j);
+  }
+  return SolveHidden(hidden, priors, map);
+}
+
+LevelReport Levels::CatchUp(NodePriorSource* priors, DeformableMap* map) {
+  if (!IsLazy()) return LevelReport();
+  return SendWaves(
+      kMostWaves, [](int) { return true; }, priors, map);
+}
+
+LevelReport Levels::CatchUp(const std::vector<int>& nodes,
+                            NodePriorSource* priors,
+                            DeformableMap* map) {
+  if (!IsLazy()) return LevelReport();
+  wanted_.Clear();
+  for (const int node : nodes) wanted_.Add(node);
+  return SendWaves(
+      kMostWaves, [this](int node) { return wanted_.Has(node); }, priors, map);
+}
+
+void Levels::CatchUpCopy(NodePriorSource* priors, DeformableMap* copy) {
+  const PendingNodes pending = pending_;
+  std::unique_ptr<LevelSolver> kept =
+      std::exchange(level_two_, MakeLevelSolver(options_.linear_solver));
+  CatchUp(priors, copy);
+  pending_ = pending;
+  level_two_ = std::move(kept);
+}
+
+}  // namespace ceres_ed

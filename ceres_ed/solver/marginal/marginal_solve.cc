@@ -1,0 +1,269 @@
+#include "ceres_ed/solver/marginal/marginal_solve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+constexpr double kMinRelativeDecrease = 1e-3;
+constexpr double kMinTrustRegionRadius = 1e-32;
+constexpr double kMaxTrustRegionRadius = 1e16;
+constexpr int kMaxConsecutiveInvalidSteps = 5;
+// The eliminated nodes are damped by this share of what Level I is, which is little more than
+// rounding. The soft modes of a large hidden part are far below the damping of a single node: batch
+// solves, which damp all alike, take many steps to follow them.
+constexpr double kShareOfDamping = 1e-8;
+// An elimination with more than this many times the damping that is wanted is made again.
+constexpr double kMaxExcessDamping = 4.0;
+constexpr double kMoreDamping = 8.0;
+// Steps of Level I where a single one was refused: it damps itself, and says when none is valid.
+constexpr int kRetries = 6;
+// Decreases below this share of the energy are rounding.
+constexpr double kRounding = 1e-13;
+
+double SquaredDistance(const DeformationState& a, const DeformationState& b) {
+  double sum =
+      (a.camera_from_map.rotation.coeffs() - b.camera_from_map.rotation.coeffs()).squaredNorm() +
+      (a.camera_from_map.translation - b.camera_from_map.translation).squaredNorm();
+  for (int j = 0; j < a.num_nodes(); ++j) {
+    for (int i = 0; i < kNodeSize; ++i) {
+      const double d = a.node(j)[i] - b.node(j)[i];
+      sum += d * d;
+    }
+  }
+  return sum;
+}
+
+double SquaredNorm(const DeformationState& state) {
+  double sum = state.camera_from_map.translation.squaredNorm() + 1.0;
+  for (int j = 0; j < state.num_nodes(); ++j) {
+    for (int i = 0; i < kNodeSize; ++i) sum += state.node(j)[i] * state.node(j)[i];
+  }
+  return sum;
+}
+
+}  // namespace
+
+MarginalSolve::MarginalSolve(const MarginalProblem& problem,
+                             LevelSolver* level_one_solver,
+                             Marginalization* marginalization,
+                             DeformationState* state)
+    : problem_(problem),
+      options_(*problem.options),
+      config_(problem.level_one),
+      level_one_solver_(level_one_solver),
+      marginalization_(marginalization),
+      state_(state),
+      radius_(options_.initial_trust_region_radius),
+      least_damping_(kShareOfDamping / radius_),
+      damping_(least_damping_) {
+  level_two_.num_variable_nodes = static_cast<int>(marginalization->eliminated_nodes().size());
+}
+
+// Factorises; where hidden nodes hang on nothing, as an island does, damping has to hold them.
+bool MarginalSolve::Eliminate() {
+  constexpr double kMostDamping = 1e3;
+  for (; damping_ <= kMostDamping; damping_ = std::max(1.0 / radius_, kMoreDamping * damping_)) {
+    if (marginalization_->Eliminate(damping_)) return true;
+  }
+  return false;
+}
+
+// Brings the elimination to the present state: by its gradient alone where that will do.
+bool MarginalSolve::Prepare(std::string* error) {
+  if (is_prepared_) return true;
+  const Timer timer;
+  const bool keep = marginalization_->has_factor() &&
+                    marginalization_->damping() <= kMaxExcessDamping * damping_ &&
+                    marginalization_->LargestChange(*state_) <= problem_.relinearize_above;
+  is_prepared_ = keep ? marginalization_->Update(*state_, options_.num_threads)
+                      : marginalization_->Linearize(*state_, options_.num_threads);
+  if (!is_prepared_) {
+    *error = "a residual of the nodes to marginalise can't be evaluated";
+  } else if (!keep && !Eliminate()) {
+    *error = "the nodes to marginalise can't be eliminated";
+    is_prepared_ = false;
+  }
+  level_two_.solve_time_s += timer.Seconds();
+  return is_prepared_;
+}
+
+bool MarginalSolve::IsDone(SolveSummary* summary) const {
+  const auto end = [summary](SolveStatus status, const char* message) {
+    summary->status = status;
+    summary->message = message;
+    return true;
+  };
+  if (level_two_.iterations >= options_.max_iterations ||
+      level_one_.iterations >= options_.max_iterations) {
+    return end(SolveStatus::kMaxIterations, "maximum number of iterations reached");
+  }
+  if (problem_.timer->Seconds() >= options_.time_limit_s) {
+    return end(SolveStatus::kTimeLimit, "time limit reached");
+  }
+  if (options_.should_stop && options_.should_stop()) {
+    return end(SolveStatus::kInterrupted, "interrupted");
+  }
+  if (radius_ < kMinTrustRegionRadius) {
+    return end(SolveStatus::kConverged, "trust region too small");
+  }
+  return false;
+}
+
+// A step of Level I over camera and PR nodes, with the prior in place of the rest. False when it
+// failed.
+bool MarginalSolve::SolveLevelOne(DeformationState* candidate, SolveSummary* summary) {
+  config_.extra_residuals.clear();
+  if (!marginalization_->seam_nodes().empty()) {
+    config_.extra_residuals.push_back(marginalization_->PriorResidual());
+  }
+  SolverOptions options = options_;
+  options.max_iterations =
+      std::min(level_one_steps_, options_.max_iterations - level_one_.iterations);
+  options.initial_trust_region_radius = radius_;
+  options.time_limit_s = std::max(1e-3, options_.time_limit_s - problem_.timer->Seconds());
+  // Asked ahead of every step.
+  if (level_one_steps_ == 1) options.should_stop = nullptr;
+  SolveSummary step;
+  const bool solved =
+      level_one_solver_->Solve(*problem_.builder, config_, options, candidate, &step);
+  summary->status = step.status;
+  summary->message = step.message;
+  summary->fault = step.fault;
+  if (step.levels.empty()) return false;
+  TakeOver(step.levels.back());
+  if (!solved) return false;
+  const LevelSummary& level = step.levels.back();
+  level_one_moved_ = level.final_cost < level.initial_cost;
+  level_one_converged_ = step.status == SolveStatus::kConverged;
+  if (energy_known_) return true;
+  // The full energy is that of Level I with the residuals themselves in place of their prior.
+  const double prior =
+      config_.extra_residuals.empty() ? 0.0 : marginalization_->PriorValue(*state_);
+  initial_energy_ = level.initial_cost - prior + marginalization_->energy();
+  energy_ = initial_energy_;
+  level_two_.initial_cost = marginalization_->energy();
+  level_two_.final_cost = marginalization_->energy();
+  energy_known_ = true;
+  return true;
+}
+
+void MarginalSolve::TakeOver(const LevelSummary& level) {
+  level_one_.num_variable_nodes = level.num_variable_nodes;
+  if (!energy_known_) level_one_.initial_cost = level.initial_cost;
+  level_one_.final_cost = level.final_cost;
+  level_one_.iterations += level.iterations;
+  level_one_.build_time_s += level.build_time_s;
+  level_one_.solve_time_s += level.solve_time_s;
+}
+
+MarginalSolve::Step MarginalSolve::TakeStep(SolveSummary* summary) {
+  if (!Prepare(&summary->message)) {
+    summary->status = SolveStatus::kFailed;
+    return Step::kFailed;
+  }
+  DeformationState candidate = *state_;
+  if (!SolveLevelOne(&candidate, summary)) return Step::kFailed;
+  if (level_one_converged_ && !level_one_moved_ &&
+      marginalization_->LargestGradient() <= options_.gradient_tolerance) {
+    return Step::kConverged;
+  }
+  const Timer timer;
+  ++level_two_.iterations;
+  const double prior = marginalization_->PriorValue(candidate);
+  const double rest = level_one_.final_cost - (config_.extra_residuals.empty() ? 0.0 : prior);
+  marginalization_->BackSubstitute(&candidate);
+  const double step = std::sqrt(SquaredDistance(candidate, *state_));
+  const double tolerance = options_.parameter_tolerance;
+  Step outcome = Step::kInvalid;
+  double energy = 0.0;
+  if (!std::isfinite(step)) {
+    outcome = Step::kInvalid;
+  } else if (!LevelOneWasRefused() &&
+             step <= tolerance * (std::sqrt(SquaredNorm(*state_)) + tolerance)) {
+    outcome = Step::kConverged;
+  } else if (marginalization_->EvaluateEnergy(candidate, options_.num_threads, &energy)) {
+    outcome = Judge(rest, prior, energy, &candidate);
+  }
+  level_two_.solve_time_s += timer.Seconds();
+  return outcome;
+}
+
+// Takes the candidate where the full energy follows what the linearised one promises: `rest` plus
+// the energy of the eliminated residuals, and that plus their prior.
+MarginalSolve::Step MarginalSolve::Judge(double rest,
+                                         double prior,
+                                         double eliminated,
+                                         DeformationState* candidate) {
+  const double predicted = energy_ - (rest + prior);
+  const double decrease = energy_ - (rest + eliminated);
+  const double quality = decrease / predicted;
+  if (!(predicted > 0.0) || !(quality > kMinRelativeDecrease)) {
+    // Where no more than the tolerance is promised there is nothing left to gain, unless damping
+    // has made it so little.
+    const double least = damping_ > least_damping_ ? kRounding : options_.function_tolerance;
+    const bool is_least = std::abs(predicted) <= std::max(kRounding, least) * energy_;
+    return is_least && !LevelOneWasRefused() ? Step::kConverged : Step::kRejected;
+  }
+  const double tolerance = options_.function_tolerance * energy_;
+  *state_ = std::move(*candidate);
+  energy_ = rest + eliminated;
+  level_two_.final_cost = eliminated;
+  is_prepared_ = false;
+  damping_ = std::max(least_damping_, damping_ / kMoreDamping);
+  if (LevelOneWasRefused()) {
+    Shrink();
+    return Step::kAccepted;
+  }
+  // More than one step has found its own radius.
+  if (level_one_moved_ && level_one_steps_ == 1) {
+    radius_ = std::min(kMaxTrustRegionRadius,
+                       radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * quality - 1.0, 3)));
+    decrease_factor_ = 2.0;
+  }
+  return std::abs(decrease) <= tolerance ? Step::kConverged : Step::kAccepted;
+}
+
+// After a step that was no good. What has grown old is made anew first; then the whole step is
+// damped more, Level I and the nodes that follow it alike.
+void MarginalSolve::Refuse() {
+  const Timer timer;
+  if (LevelOneWasRefused()) {
+    Shrink();
+  } else if (!marginalization_->is_fresh()) {
+    is_prepared_ = marginalization_->Linearize(*state_, options_.num_threads) && Eliminate();
+  } else {
+    damping_ = std::max(1.0 / radius_, kMoreDamping * damping_);
+    Shrink();
+    is_prepared_ = Eliminate();
+  }
+  level_two_.solve_time_s += timer.Seconds();
+}
+
+void MarginalSolve::Iterate(SolveSummary* summary) {
+  int invalid_steps = 0;
+  while (!IsDone(summary)) {
+    const Step step = TakeStep(summary);
+    if (step == Step::kFailed) return;
+    if (step == Step::kConverged) {
+      summary->status = SolveStatus::kConverged;
+      summary->message = "function, gradient or parameter tolerance reached";
+      return;
+    }
+    level_one_steps_ = LevelOneWasRefused() ? kRetries : 1;
+    if (step == Step::kAccepted) {
+      invalid_steps = 0;
+      continue;
+    }
+    if (step == Step::kInvalid && ++invalid_steps >= kMaxConsecutiveInvalidSteps) {
+      summary->status = SolveStatus::kFailed;
+      summary->message = "no valid step could be made";
+      return;
+    }
+    Refuse();
+  }
+}
+
+}  // namespace ceres_ed

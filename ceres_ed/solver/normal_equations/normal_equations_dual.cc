@@ -1,0 +1,151 @@
+// Points and wide residuals of NormalEquations that have dual unknowns.
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ceres_ed {
+namespace {
+
+constexpr int kAffineSize = kNodeTranslationOffset;
+// Duals pay where they are fewer than this share of the affine parameters that they keep apart.
+constexpr double kFewDuals = 0.7;
+// A residual on so many nodes and camera parts is wide; its own rows are to be fewer than this
+// share of theirs.
+constexpr int kWideParts = 24;
+constexpr double kFewRows = 0.25;
+// Rounding of moments.
+constexpr double kRankTolerance = 1e-15;
+
+// Q with Q^T Q = M, rows of zeros where the rank is lower. Pivoted: every row starts from the
+// largest entry left on the diagonal. `moments`: lower triangle row by row.
+Eigen::Matrix3d SquareRoot(const double* moments) {
+  Eigen::Matrix3d M;
+  M << moments[0], moments[1], moments[3], moments[1], moments[2], moments[4], moments[3],
+      moments[4], moments[5];
+  const double smallest = kRankTolerance * M.trace();
+  Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    int pivot = 0;
+    const double largest = M.diagonal().maxCoeff(&pivot);
+    if (!(largest > smallest)) break;
+    Q.row(k) = M.row(pivot) / std::sqrt(largest);
+    M -= Q.row(k).transpose() * Q.row(k);
+  }
+  return Q;
+}
+
+}  // namespace
+
+void NormalEquations::ChooseDualPoints() {
+  if (camera_variable_) return;
+  std::vector<char> coupled(num_variable_nodes(), 0);
+  int num_points = 0;
+  for (const PointGroup& group : points_.groups()) {
+    num_points += group.num_points;
+    for (int a = 0; a < group.num_nodes; ++a) {
+      const int block = block_of_node_[points_.nodes(group)[a]];
+      if (block >= 0) coupled[block] = 1;
+    }
+  }
+  const auto num_coupled = std::count(coupled.begin(), coupled.end(), 1);
+  if (kDualSize * num_points < kFewDuals * kAffineSize * num_coupled) {
+    num_dual_points_ = num_dual_ = num_points;
+  }
+}
+
+void NormalEquations::ChooseDualItems() {
+  for (Item& item : items_) {
+    if (item.quadratic != nullptr) continue;
+    const Part* parts = &parts_[item.first_part];
+    const auto num_varying = std::count_if(
+        parts, parts + item.num_parts, [](const Part& part) { return part.block >= 0; });
+    const int num_dual = (item.cost->num_residuals() + kDualSize - 1) / kDualSize;
+    if (num_varying < kWideParts || kDualSize * num_dual > kFewRows * kNodeSize * num_varying) {
+      continue;
+    }
+    item.first_dual = num_dual_;
+    item.num_dual = num_dual;
+    num_dual_ += num_dual;
+  }
+}
+
+void NormalEquations::AddDualItemSlots(const Item& item) {
+  const Part* parts = &parts_[item.first_part];
+  for (int a = 0; a < item.num_parts; ++a) AddSlot(parts[a].block, parts[a].block, true);
+  for (int d = 0; d < item.num_dual; ++d) {
+    for (int a = 0; a < item.num_parts; ++a) {
+      AddSlot(DualBlock(item.first_dual + d), parts[a].block, true);
+    }
+  }
+}
+
+// Dual rows are those of the Jacobian; the last block may have rows of zeros behind them.
+void NormalEquations::SpreadDualItem(const Item& item,
+                                     const double* linearization,
+                                     const Sums& sums) const {
+  const int num_residuals = item.cost->num_residuals();
+  const double* jacobian = linearization + num_residuals;
+  const Part* parts = &parts_[item.first_part];
+  for (int a = 0; a < item.num_parts; ++a) {
+    AccumulateGradient(item, a, item.first_slot + a, linearization, sums);
+  }
+  if (sums.values == nullptr) return;
+  int slot = item.first_slot + item.num_parts;
+  for (int d = 0; d < item.num_dual; ++d) {
+    for (int a = 0; a < item.num_parts; ++a, ++slot) {
+      const Part& part = parts[a];
+      if (part.block < 0) continue;
+      double* values = Values(slot, sums) + part.offset * kDualSize;
+      const int first = d * kDualSize;
+      const int rows = std::min(kDualSize, num_residuals - first);
+      for (int r = 0; r < rows; ++r) {
+        const double* row = jacobian + num_residuals * part.column + (first + r) * part.width;
+        for (int i = 0; i < part.width; ++i) values[i * kDualSize + r] += row[i];
+      }
+    }
+  }
+}
+
+// Behind those of the nodes: of each point, those with its nodes.
+void NormalEquations::AddDualSlots(const PointGroup& group) {
+  const int* blocks = &group_blocks_[group.first_node];
+  for (int p = 0; p < group.num_points; ++p) {
+    const int dual = DualBlock(group.first_point + p);
+    for (int a = 0; a < group.num_nodes; ++a) AddSlot(dual, blocks[a], true);
+  }
+}
+
+int NormalEquations::DiagonalSlot(int group, int node) const {
+  return group_slots_[group] + (num_dual_points_ > 0 ? node : node * (node + 1) / 2 + node);
+}
+
+// Dual rows are w_a [v - g_a; 1]^T (x) Q.
+void NormalEquations::SpreadDuals(int index, const double* moments, const Sums& sums) const {
+  const PointGroup& group = points_.groups()[index];
+  const Eigen::Vector3d* positions = &group_positions_[group.first_node];
+  const int* blocks = &group_blocks_[group.first_node];
+  int slot = group_slots_[index] + group.num_nodes;
+  for (int p = 0; p < group.num_points; ++p) {
+    const Eigen::Matrix3d Q = SquareRoot(moments + 6 * p);
+    const Eigen::Map<const Eigen::Vector3d> lever(points_.levers(group) + 3 * p);
+    const double* weights = points_.weights(group) + p * group.num_nodes;
+    for (int a = 0; a < group.num_nodes; ++a, ++slot) {
+      if (blocks[a] < 0) continue;
+      Eigen::Map<Eigen::Matrix<double, kDualSize, kNodeSize>> J(Values(slot, sums));
+      const Eigen::Vector3d offset = lever + positions[0] - positions[a];
+      for (int i = 0; i < 3; ++i) J.middleCols<3>(3 * i) = weights[a] * offset[i] * Q;
+      J.middleCols<3>(kNodeTranslationOffset) = weights[a] * Q;
+    }
+  }
+}
+
+void NormalEquations::SetDualDiagonals(double* values) const {
+  for (int k = 0; k < num_dual_; ++k) {
+    const int block = structure_->num_blocks() - num_dual_ + k;
+    double* diagonal = values + structure_->value_offset(structure_->column_begin(block));
+    for (int i = 0; i < kDualSize; ++i) diagonal[i * kDualSize + i] = -1.0;
+  }
+}
+
+}  // namespace ceres_ed
