@@ -16,6 +16,8 @@ GRAY = np.array([0.82, 0.83, 0.85])
 BLUE = np.array([0.60, 0.74, 0.90])
 PR_COLOR, PI_COLOR = "#d95f02", "#2060a8"
 BATCH_COLOR, TWO_LEVEL_COLOR = "#2060a8", "#c8322d"
+# Of errors, from none to large ones.
+HEAT = ["#fbeec2", "#fdc25a", "#f4783b", "#cf2431", "#6a0f2b"]
 SUPERSAMPLING = 3
 
 

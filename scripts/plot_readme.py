@@ -15,7 +15,7 @@ import tempfile
 from pathlib import Path
 
 # First of those that need numpy and matplotlib: it says so where they are missing.
-from mesh_picture import (BLUE, GRAY, PI_COLOR, PR_COLOR, SUPERSAMPLING, View, draw_graph, render,
+from mesh_picture import (BLUE, GRAY, HEAT, PI_COLOR, PR_COLOR, SUPERSAMPLING, View, draw_graph, render,
                           smaller)
 import ply
 from program_runs import ROOT
@@ -24,8 +24,6 @@ import matplotlib
 import matplotlib.colors
 import matplotlib.pyplot as plt
 import numpy as np
-
-HEAT = ["#fbeec2", "#fdc25a", "#f4783b", "#cf2431", "#6a0f2b"]
 
 
 def fit(apps, pair, work):
