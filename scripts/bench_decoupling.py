@@ -26,7 +26,7 @@ the batch run fails, with 2 on a wrong call; other failures stand in the tables.
   scripts/bench_decoupling.py
   scripts/bench_decoupling.py --quick --work=/tmp/decoupling
   scripts/bench_decoupling.py --only=strip --sizes=1000,3000,10000
-  scripts/bench_decoupling.py --readme=README.md       # and its figure into scripts/images/
+  scripts/bench_decoupling.py --page       # and its figure into scripts/images/
 """
 import argparse
 import json
@@ -38,7 +38,7 @@ from pathlib import Path
 
 # First of those that need numpy and matplotlib: it says so where they are missing.
 import mesh_picture  # noqa: F401
-from bench_tables import check_marks, write_between
+from bench_tables import add_page_option, check_marks, write_between
 from decoupling_gaps import gaps
 from decoupling_runs import (BATCH, DEFAULT, MARGINAL, NODES_IN_VIEW, NODES_OF_VIEW, PAPER_CUT,
                              PAPER_KEEP, growth, make_strip, paired)
@@ -49,6 +49,7 @@ from sequence_runs import SCENES, simulate
 BEGIN, END = "<!-- bench_decoupling.py: begin -->", "<!-- bench_decoupling.py: end -->"
 PARTS = ("strip", "paired", "gap")
 PICTURE = "decoupling.png"
+PAGE = ROOT / "ceres_ed/slam/decoupling.md"
 
 
 def parse_options():
@@ -83,14 +84,12 @@ def parse_options():
     parser.add_argument("--quick", action="store_true",
                         help="small maps and few schemes: to see that everything works")
     parser.add_argument("--json", metavar="FILE", help="also write all figures and options there")
-    parser.add_argument("--readme", metavar="FILE",
-                        help="also put tables and command between the marks of this README.md and "
-                        "the figure into images/ beside this script")
+    add_page_option(parser, PAGE, "the figure into scripts/images/, and tables and command")
     options = parser.parse_args()
     # What a reader has to say to get the same.
     options.said = {key: value for key, value in vars(options).items()
                     if value != parser.get_default(key)
-                    and key not in ("bin", "work", "only", "fresh", "json", "readme")}
+                    and key not in ("bin", "work", "only", "fresh", "json", "page")}
     check(options, parser)
     return options
 
@@ -108,8 +107,8 @@ def check(options, parser):
     options.live_every = 5
     options.given_up = {}
     if options.quick:
-        if options.readme:
-            parser.error("--readme takes no --quick")
+        if options.page:
+            parser.error("--page takes no --quick")
         options.sizes, options.nodes_in_view, options.gap_nodes = "300,600,900", 140, 400
         options.checkpoint_every, options.beside = 10, 5
         options.verify_every = min(options.verify_every, 5)
@@ -128,8 +127,8 @@ def check(options, parser):
         parser.error(f"--speed={options.speed}, expected 0.001 to 0.3")
     if options.sizes[0] < 1:
         parser.error(f"--sizes: {options.sizes[0]}, expected 1 or more")
-    if options.readme:
-        check_marks(options.readme, BEGIN, END)
+    if options.page:
+        check_marks(options.page, BEGIN, END)
     for program in ("ed_slam", "ed_simulate", "ed_eval"):
         if not (options.bin / program).exists():
             wrong_call(f"{options.bin / program} is not there; build it or name its folder")
@@ -211,10 +210,10 @@ def main():
         Path(options.json).write_text(json.dumps({"options": options.said, "strip": records,
                                                   "paired": rounds, "gap": rows}, indent=1) + "\n")
     failed = strip_failed or gap_failed
-    if options.readme and failed:
-        print(f"{PROGRAM}: a run failed, {options.readme} stays as it is", file=sys.stderr)
-    elif options.readme:
-        write_between(options.readme, BEGIN, END, page)
+    if options.page and failed:
+        print(f"{PROGRAM}: a run failed, {options.page} stays as it is", file=sys.stderr)
+    elif options.page:
+        write_between(options.page, BEGIN, END, page)
         shutil.copy(options.work / PICTURE, ROOT / "scripts/images" / PICTURE)
     return 1 if failed else 0
 

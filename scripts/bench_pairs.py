@@ -23,6 +23,7 @@ Exits with 1 when a run fails or two runs of one variant differ, with 2 on a wro
   scripts/bench_pairs.py --compare-flags="--mode=two_level" --csv=build/bench.csv
   scripts/bench_pairs.py --subdivide --pairs=bear_full,bear_full_subdivided
   scripts/bench_pairs.py --compare-bin=../before/build/release/apps
+  scripts/bench_pairs.py --page
 """
 import argparse
 import csv
@@ -32,7 +33,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from bench_tables import COLUMNS, print_table, ratio_row, write_readme
+from bench_tables import COLUMNS, PAGE, add_page_option, print_table, ratio_row, write_page
 from pair_runs import bench_pair, find_pairs, subdivided
 from program_runs import ROOT, RunFailed, Variant, default_folders
 
@@ -55,16 +56,15 @@ def parse_options():
     parser.add_argument("--compare-bin", metavar="DIR", help="variant B is the ed_fit of this folder")
     parser.add_argument("--csv", metavar="FILE", help="also write the rows there")
     parser.add_argument("--json", metavar="FILE", help="also write rows and options there")
-    parser.add_argument("--readme", metavar="FILE",
-                        help="also put the tables between the marks of this README.md")
+    add_page_option(parser, PAGE, "the tables")
     options = parser.parse_args()
     if options.runs < 1:
         parser.error(f"--runs={options.runs}, expected 1 or more")
     if options.data is None:
         options.data = default_folders()
     options.compared = options.compare_flags is not None or options.compare_bin is not None
-    if options.compared and options.readme:
-        parser.error("--readme takes one variant alone")
+    if options.compared and options.page:
+        parser.error("--page takes one variant alone")
     options.ed_eval = Path(options.bin) / "ed_eval"
     return options
 
@@ -79,8 +79,8 @@ def save(options, rows):
     if options.json:
         said = {key: getattr(options, key) for key in ("flags", "runs", "target", "compare_flags")}
         Path(options.json).write_text(json.dumps({"options": said, "rows": rows}, indent=2) + "\n")
-    if options.readme:
-        write_readme(options.readme, rows)
+    if options.page:
+        write_page(options.page, rows)
 
 
 def list_pairs(options, work):
@@ -120,9 +120,9 @@ def main():
             if options.compared:
                 rows.append(ratio_row(*of_pair))
     print_table(rows, options.compared)
-    if failed and options.readme:
-        print(f"bench_pairs.py: a run failed, {options.readme} stays as it is", file=sys.stderr)
-        options.readme = None
+    if failed and options.page:
+        print(f"bench_pairs.py: a run failed, {options.page} stays as it is", file=sys.stderr)
+        options.page = None
     save(options, rows)
     return 1 if failed else 0
 

@@ -32,6 +32,7 @@ Exits with 1 when a run fails or two runs of one variant differ, with 2 on a wro
   scripts/bench_sequences.py --sequences=heart,kidney,stomach --compare-flags="--mode=batch"
   scripts/bench_sequences.py --sequences=invivo_heart_40 --runs=3 --json=build/sequences.json
   scripts/bench_sequences.py --compare-bin=../before/build/release/apps
+  scripts/bench_sequences.py --page
 """
 import argparse
 import json
@@ -41,7 +42,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-from bench_tables import cell, check_marks, print_table, ratio_row, table, write_between
+from bench_tables import (PAGE, add_page_option, cell, check_marks, print_table, ratio_row, table,
+                          write_between)
 from program_runs import PROGRAM, ROOT, RunFailed, Variant, default_folders, wrong_call
 from sequence_runs import (CACHE, SCENES, STAGES, counts_of, digest, errors_of, evaluate,
                            find_sequences, read_frames, simulate, static_residual, times_of, track)
@@ -61,7 +63,7 @@ COLUMNS = [
 ]
 RATIOS = ("surface_seen", "tracking_seen", "tracking_hidden", "camera", "track_px", "rms_plane",
           "depth", *TIMES)
-# The columns of README.md.
+# The columns of the page.
 SHOWN = [("frames", "frames", 0), ("lost", "lost", 0), ("surface_seen", "surface mm", 2),
          ("tracking_seen", "seen mm", 2), ("tracking_hidden", "hidden mm", 2),
          ("track_px", "tracks px", 1), ("rms_plane", "plane mm", 2), ("ms", "ms", 0),
@@ -89,18 +91,17 @@ def parse_options():
     parser.add_argument("--compare-flags", metavar="FLAGS", help="variant B has these flags, too")
     parser.add_argument("--compare-bin", metavar="DIR", help="variant B is the ed_slam of this folder")
     parser.add_argument("--json", metavar="FILE", help="also write rows and options there")
-    parser.add_argument("--readme", metavar="FILE",
-                        help="also put the table between the marks of this README.md")
+    add_page_option(parser, PAGE, "the table")
     options = parser.parse_args()
     if options.runs < 1:
         parser.error(f"--runs={options.runs}, expected 1 or more")
     if options.data is None:
         options.data = default_folders()
     options.compared = options.compare_flags is not None or options.compare_bin is not None
-    if options.compared and options.readme:
-        parser.error("--readme takes one variant alone")
-    if options.readme:
-        check_marks(options.readme, BEGIN, END)
+    if options.compared and options.page:
+        parser.error("--page takes one variant alone")
+    if options.page:
+        check_marks(options.page, BEGIN, END)
     return options
 
 
@@ -177,8 +178,8 @@ def save(options, rows):
         said = {key: getattr(options, key) for key in ("flags", "runs", "simulate_flags",
                                                        "compare_flags")}
         Path(options.json).write_text(json.dumps({"options": said, "rows": rows}, indent=2) + "\n")
-    if options.readme:
-        write_between(options.readme, BEGIN, END, markdown(rows))
+    if options.page:
+        write_between(options.page, BEGIN, END, markdown(rows))
 
 
 def main():
@@ -208,9 +209,9 @@ def main():
     for row in rows:
         if row["static"]:
             print(static_note(row).replace("`", ""))
-    if failed and options.readme:
-        print(f"{PROGRAM}: a run failed, {options.readme} stays as it is", file=sys.stderr)
-        options.readme = None
+    if failed and options.page:
+        print(f"{PROGRAM}: a run failed, {options.page} stays as it is", file=sys.stderr)
+        options.page = None
     save(options, rows)
     return 1 if failed else 0
 

@@ -6,6 +6,8 @@ from pathlib import Path
 from program_runs import PROGRAM, ROOT
 
 PUBLISHED = ROOT / "data" / "published.csv"
+# The page that has the tables of pairs and of sequences.
+PAGE = ROOT / "test/benchmark/README.md"
 BEGIN, END = "<!-- bench_pairs.py: begin -->", "<!-- bench_pairs.py: end -->"
 
 # Field, heading, decimals. Compared variants show the ratio B/A of those in RATIOS.
@@ -87,7 +89,7 @@ def real_row(row, published):
 
 
 def markdown(rows):
-    """Returns the tables of README.md: shipped pairs, then those by others."""
+    """Returns the tables of the page: shipped pairs, then those by others."""
     shipped = [row for row in rows if (ROOT / "data" / row["pair"]).is_dir()]
     real = [row for row in rows if row not in shipped]
     lines = table(["shipped pair", "nothing %", "rigid %", "truth %", "target %", "edge p99 %",
@@ -97,6 +99,13 @@ def markdown(rows):
         lines += [""] + table(["pair by others", "nothing %", "rigid %", "`ed_fit` %", "s",
                                "SPARE", "AMM_NRR"], [real_row(row, published) for row in real])
     return "\n".join(lines)
+
+
+def add_page_option(parser, default, what):
+    """Adds --page, which also puts `what` into a page: `default` where no other is named."""
+    parser.add_argument("--page", nargs="?", const=default, type=Path, metavar="FILE",
+                        help=f"also put {what} between the marks of this page "
+                        f"[{default.relative_to(ROOT)}]")
 
 
 def check_marks(path, begin, end):
@@ -114,5 +123,5 @@ def write_between(path, begin, end, text):
     Path(path).write_text(f"{head}{begin}\n{text}\n{end}{tail}")
 
 
-def write_readme(path, rows):
+def write_page(path, rows):
     write_between(path, BEGIN, END, markdown(rows))

@@ -18,7 +18,7 @@ results.json to --output. Runs one after the other; simulates two sequences at a
 when a run fails, with 2 on a wrong call.
 
   scripts/paper_experiments.py
-  scripts/paper_experiments.py --readme=README.md      # and its tables and scripts/images/
+  scripts/paper_experiments.py --page      # and its tables and scripts/images/
   scripts/paper_experiments.py --quick --output=/tmp/paper
 """
 import argparse
@@ -33,7 +33,7 @@ from pathlib import Path
 
 # First of those that need numpy and matplotlib: it says so where they are missing.
 import mesh_picture  # noqa: F401
-from bench_tables import check_marks, write_between
+from bench_tables import add_page_option, check_marks, write_between
 from paper_deformations import run_dolphin, run_plane
 from paper_sequences import run_growing
 from program_runs import PROGRAM, ROOT, RunFailed, wrong_call
@@ -42,6 +42,7 @@ from sequence_runs import CACHE, SCENES
 BEGIN, END = "<!-- paper_experiments.py: begin -->", "<!-- paper_experiments.py: end -->"
 PICTURES = ("paper_time.png", "paper_plane.png", "paper_dolphin.png")
 EXPERIMENTS = "abcd"
+PAGE = ROOT / "ceres_ed/slam/experiments.md"
 
 
 def parse_options():
@@ -64,9 +65,7 @@ def parse_options():
     parser.add_argument("--quick", action="store_true",
                         help="small pictures, few frames: to see that everything works")
     parser.add_argument("--flags", default="", help="more flags of ed_slam, of all runs [none]")
-    parser.add_argument("--readme", metavar="FILE",
-                        help="also put the tables between the marks of this README.md and the "
-                        "pictures into images/ beside this script")
+    add_page_option(parser, PAGE, "the pictures into scripts/images/, and the tables")
     options = parser.parse_args()
     options.scenes = [name for name in options.scenes.split(",") if name]
     unknown = set(options.scenes) - set(SCENES)
@@ -79,10 +78,10 @@ def parse_options():
         parser.error(f"--size={options.size}, expected such as 320x240")
     if options.frames < 2:
         parser.error(f"--frames={options.frames}, expected 2 or more")
-    if options.readme:
+    if options.page:
         if options.quick or set(options.experiments) != set(EXPERIMENTS):
-            parser.error("--readme takes all experiments, and none of them quick")
-        check_marks(options.readme, BEGIN, END)
+            parser.error("--page takes all experiments, and none of them quick")
+        check_marks(options.page, BEGIN, END)
     for program in ("ed_slam", "ed_simulate", "ed_eval", "ed_fit"):
         if not (options.bin / program).exists():
             wrong_call(f"{options.bin / program} is not there; build it or name its folder")
@@ -136,8 +135,8 @@ def main():
     (options.output / "tables.md").write_text(page + "\n")
     (options.output / "results.json").write_text(json.dumps(results, indent=1) + "\n")
     print(page)
-    if options.readme:
-        write_between(options.readme, BEGIN, END, page)
+    if options.page:
+        write_between(options.page, BEGIN, END, page)
         for name in PICTURES:
             shutil.copy(options.output / name, ROOT / "scripts/images" / name)
     say(f"done: {options.output}")

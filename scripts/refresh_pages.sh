@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Brings what pages show up to date: the catalogue of energies, and source files that are shown whole.
+# Brings what pages show up to date: the catalogue of energies, source files that are shown whole, and the
+# short tables of the README.
 # refresh_pages.sh [BUILD FOLDER (build/release)]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -15,4 +16,5 @@ sed -i -e '/^<!-- ed_list_energies: begin -->$/,/^<!-- ed_list_energies: end -->
   /begin -->$/r '"$catalogue"'
 }' "$page"
 python3 test/docs/check_code.py --update
-echo "refreshed $page and the pages that show files"
+scripts/readme_tables.py
+echo "refreshed $page, README.md and the pages that show files"

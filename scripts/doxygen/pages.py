@@ -14,8 +14,12 @@ LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 
 
 def page_id(path):
-    """The name of a page, by its path from the root: ceres_ed/slam/README.md -> ceres_ed_slam."""
-    return os.path.dirname(path).replace("/", "_") or "readme"
+    """The name of a page, by its path from the root.
+
+    ceres_ed/slam/README.md -> ceres_ed_slam, ceres_ed/slam/decoupling.md -> ceres_ed_slam_decoupling
+    """
+    name = re.sub(r"(^|/)README\.md$|\.md$", "", path)
+    return name.lstrip(".").replace("/", "_") or "readme"
 
 
 def slug(heading):
@@ -24,12 +28,12 @@ def slug(heading):
     return re.sub(r"\s", "-", text.strip())
 
 
-def target(link, folder):
-    """Where Doxygen has the file of a link; None where it has none."""
+def target(link, this):
+    """Where Doxygen has the file of a link on the page at `this`; None where it has none."""
     path, _, anchor = link.partition("#")
-    path = os.path.normpath(os.path.join(folder, path)) if path else None
-    if path is None or os.path.basename(path) == "README.md":
-        page = page_id(path or os.path.join(folder, "README.md"))
+    path = os.path.normpath(os.path.join(os.path.dirname(this), path)) if path else None
+    if path is None or path.endswith(".md"):
+        page = page_id(path or this)
         if page == "readme" and not anchor:
             return "@ref index"
         return f"@ref {page}{'--' + anchor if anchor else ''}"
@@ -51,8 +55,9 @@ def missing_links(text, path):
     return warnings
 
 
-def convert_line(line, folder, page):
-    """One line outside of code."""
+def convert_line(line, path):
+    """One line outside of code, of the page at `path`."""
+    page = page_id(path)
     heading = re.match(r"^(#{1,6}) (.*)$", line)
     if heading:
         anchor = page if len(heading[1]) == 1 else f"{page}--{slug(heading[2])}"
@@ -61,7 +66,7 @@ def convert_line(line, folder, page):
     def relink(match):
         if re.match(r"https?://", match[2]):
             return match[0]
-        where = target(match[2], folder)
+        where = target(match[2], path)
         return f"[{match[1]}]({where})" if where else match[1]
 
     # Paths in images are found by their names.
@@ -71,8 +76,6 @@ def convert_line(line, folder, page):
 
 def convert_page(text, path):
     """The page at `path` as Doxygen is to see it; links may run over the end of a line."""
-    folder = os.path.dirname(path)
-    page = page_id(path)
     result = []
     # Code is left alone.
     for piece in re.split(r"(^```.*?^```$|^(?:    [^\n]*\n)+)", text, flags=re.M | re.S):
@@ -81,5 +84,5 @@ def convert_page(text, path):
             result.append(piece)
             continue
         piece = re.sub(r"\[[^\]\n]*\n[^\]\n]*\]\([^)]*\)", lambda m: m[0].replace("\n", " "), piece)
-        result.append("\n".join(convert_line(line, folder, page) for line in piece.split("\n")))
+        result.append("\n".join(convert_line(line, path) for line in piece.split("\n")))
     return "".join(result)

@@ -16,16 +16,16 @@ from headers import convert_header
 from pages import PRIVATE, convert_page, missing_links
 
 HEADERS = ["ceres_ed/**/*.h", "cost_functions/*.h"]
-PAGES = ["README.md", "apps/examples/README.md", "ceres_ed/**/README.md", "data/README.md"]
 
 
-def source_names():
-    """Names of all files of the repository, without their folders."""
-    names = set()
+def source_files():
+    """Paths of all files of the repository."""
+    paths = []
     for folder, subfolders, files in os.walk("."):
-        subfolders[:] = [name for name in subfolders if name not in (".git", "build")]
-        names.update(files)
-    return names
+        subfolders[:] = [name for name in subfolders
+                         if name != "build" and (name == ".github" or not name.startswith("."))]
+        paths += [os.path.relpath(os.path.join(folder, name)) for name in files]
+    return sorted(paths)
 
 
 def missing_files(text, path, names):
@@ -39,24 +39,30 @@ def missing_files(text, path, names):
     return warnings
 
 
-def write(patterns, folder, convert):
-    """Writes `convert(text, path)` of every file that the patterns find."""
-    for pattern in patterns:
-        for path in sorted(glob.glob(pattern, recursive=True)):
-            if path.startswith(PRIVATE) and path.endswith(".h"):
-                continue
-            with open(path, encoding="utf-8") as file:
-                text = convert(file.read(), path)
-            os.makedirs(os.path.dirname(os.path.join(folder, path)), exist_ok=True)
-            with open(os.path.join(folder, path), "w", encoding="utf-8") as file:
-                file.write(text)
+def find_headers():
+    """Paths of the headers that get pages."""
+    paths = {path for pattern in HEADERS for path in glob.glob(pattern, recursive=True)}
+    return sorted(path for path in paths if not path.startswith(PRIVATE))
+
+
+def write(paths, folder, convert):
+    """Writes `convert(text, path)` of every file."""
+    for path in paths:
+        with open(path, encoding="utf-8") as file:
+            text = convert(file.read(), path)
+        # Doxygen passes over hidden folders.
+        copy = os.path.join(folder, path.lstrip("."))
+        os.makedirs(os.path.dirname(copy), exist_ok=True)
+        with open(copy, "w", encoding="utf-8") as file:
+            file.write(text)
 
 
 def main():
     """Writes all of it afresh; returns warnings."""
     folder = sys.argv[1]
     shutil.rmtree(folder, ignore_errors=True)
-    names = source_names()
+    files = source_files()
+    names = {os.path.basename(path) for path in files}
     warnings = []
 
     def header(text, path):
@@ -67,8 +73,8 @@ def main():
         warnings.extend(missing_links(text, path))
         return convert_page(text, path)
 
-    write(HEADERS, folder, header)
-    write(PAGES, folder, page)
+    write(find_headers(), folder, header)
+    write([path for path in files if path.endswith(".md")], folder, page)
     return "\n".join(warnings)
 
 

@@ -1,4 +1,4 @@
-// What README.md says is what is there.
+// What README.md and the other pages say is what is there.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/energy_listing.h>
 
@@ -46,7 +46,7 @@ std::string ParameterCell(const EnergyInfo& energy) {
   return cell.tellp() > 0 ? cell.str() : "-";
 }
 
-// The table of energies as README.md must have it.
+// The table of energies as the page must have it.
 std::string EnergyTable() {
   EnergyRegistry registry;
   RegisterBuiltinEnergies(&registry);
@@ -67,11 +67,11 @@ TEST(Readme, ShowsTheHelloExampleAsItIsCompiled) {
   EXPECT_THAT(ReadSourceFile("README.md"), HasSubstr("```cpp\n" + example + "```\n"));
 }
 
-TEST(Readme, ListsTheEnergiesAsTheRegistryHasThem) {
-  const std::string readme = ReadSourceFile("README.md");
+TEST(EnergyPage, ListsTheEnergiesAsTheRegistryHasThem) {
+  const std::string page = ReadSourceFile("ceres_ed/energy/README.md");
   const std::string table = EnergyTable();
   // Not HasSubstr, which would print all of the file: what to paste is the table.
-  EXPECT_NE(readme.find("\n\n" + table + "\n"), std::string::npos) << "expected:\n" << table;
+  EXPECT_NE(page.find("\n\n" + table + "\n"), std::string::npos) << "expected:\n" << table;
 }
 
 TEST(EnergyPage, HasTheCatalogueOfTheRegistry) {
@@ -97,22 +97,39 @@ TEST(Readme, LinksOnlyToWhatIsThere) {
   }
 }
 
-TEST(Readme, GivesProgramsOnlyFlagsThatTheyHave) {
-  const std::string readme = ReadSourceFile("README.md");
-  // A line of code, or a piece of it in a line of text.
+// Every flag that a page gives to a program, in a line of code or in a piece of code in a line of
+// text, is one of the program's; returns how many there are.
+int CheckFlags(const std::string& page) {
+  const std::string text = ReadSourceFile(page);
   const std::regex command("(?:\n|`)(ed_[a-z_]+) ([^`\n]*)");
   int num_flags = 0;
-  for (std::sregex_iterator it(readme.begin(), readme.end(), command), end; it != end; ++it) {
+  for (std::sregex_iterator it(text.begin(), text.end(), command), end; it != end; ++it) {
     const std::string program = (*it)[1];
     const ProgramResult help = RunProgramFile(AppPath(program), {"--help"});
-    ASSERT_EQ(help.exit_code, 0) << program;
+    EXPECT_EQ(help.exit_code, 0) << page << ": " << program;
     const std::vector<std::string> known = FindAll(help.out, "\n  --([a-z_]+)");
     for (const std::string& flag : FindAll((*it)[2], "--([a-z_]+)")) {
-      EXPECT_THAT(known, Contains(flag)) << program;
+      EXPECT_THAT(known, Contains(flag)) << page << ": " << program;
       ++num_flags;
     }
   }
-  EXPECT_GE(num_flags, 8);
+  return num_flags;
+}
+
+TEST(Pages, GiveProgramsOnlyFlagsThatTheyHave) {
+  EXPECT_GE(CheckFlags("README.md"), 8);
+  for (const char* page : {"apps/examples/README.md",
+                           "ceres_ed/README.md",
+                           "ceres_ed/energy/README.md",
+                           "ceres_ed/io/results/README.md",
+                           "ceres_ed/io/sequence/README.md",
+                           "ceres_ed/registration/README.md",
+                           "ceres_ed/slam/README.md",
+                           "ceres_ed/slam/decoupling.md",
+                           "ceres_ed/solver/README.md",
+                           "test/benchmark/README.md"}) {
+    CheckFlags(page);
+  }
 }
 
 }  // namespace

@@ -7,16 +7,14 @@ With --update, blocks that show a whole file get its present text.
 """
 
 import argparse
-import glob
 import os
 import re
 import subprocess
 import sys
 
-from pages import CODE, PROSE, read_blocks
+from pages import CODE, PROSE, find_pages, read_blocks
 from shell import make_root, missing_line, run
 
-PAGES = ["README.md", "apps/examples/README.md", "ceres_ed/*/README.md", "data/README.md"]
 # Pages that have a test of their own: the language of the blocks that it runs, and its name.
 OWN_TESTS = {"ceres_ed/python/README.md": {"python": "python.readme"}}
 # Files that no target compiles as they stand, but that a test builds as a project.
@@ -41,7 +39,7 @@ class Checker:
 
     def check(self, page):
         """Checks the blocks of a page, the shell's in their order and in one folder."""
-        folder = os.path.join(self._work, os.path.dirname(page).replace("/", "_") or "root")
+        folder = os.path.join(self._work, page[: -len(".md")].replace("/", "_"))
         make_root(folder, self._source, self._provided)
         self._printed = ""
         for block in read_blocks(read(os.path.join(self._source, page)), page):
@@ -135,9 +133,7 @@ def main():
     parser.add_argument("--update", action="store_true", help="renew blocks that show whole files")
     parser.add_argument("pages", nargs="*", help="pages to check, default all")
     arguments = parser.parse_args()
-    found = [os.path.relpath(path, arguments.source) for pattern in PAGES
-             for path in sorted(glob.glob(os.path.join(arguments.source, pattern)))]
-    pages = arguments.pages or found
+    pages = arguments.pages or find_pages(arguments.source)
     if arguments.update:
         for page in pages:
             update(arguments.source, page)
@@ -154,7 +150,7 @@ def main():
     print(f"{len(pages)} pages, blocks:", ", ".join(f"{n} {kind}" for kind, n in checker.counts.items()))
     for error in checker.errors:
         print(error, file=sys.stderr)
-    return 1 if checker.errors or not checker.counts else 0
+    return 1 if checker.errors or not pages else 0
 
 
 if __name__ == "__main__":

@@ -8,9 +8,14 @@ A comment on the line ahead of a block says how it is covered:
     <!-- not run: REASON -->     nothing does
 """
 
+import glob
+import os
 import re
 from dataclasses import dataclass
 
+# Where pages are: each name is a pattern for folders, and a page is any .md file in one of them.
+FOLDERS = ["", ".github/**", "apps/**", "ceres_ed/**", "cost_functions/**", "data/**", "scripts/**",
+           "test/**"]
 MARK = re.compile(r"^<!-- (file|prints|tested by|not run)(?:: (.*?))? -->$")
 # Fences whose content is no code.
 PROSE = {"text", "json", "csv", "markdown"}
@@ -35,6 +40,13 @@ class Block:
     def place(self):
         """What messages begin with."""
         return f"{self.page}:{self.line}"
+
+
+def find_pages(root):
+    """Returns all pages, as paths relative to the root of the repository."""
+    found = {path for folder in FOLDERS
+             for path in glob.glob(os.path.join(root, folder, "*.md"), recursive=True)}
+    return sorted(os.path.relpath(path, root) for path in found)
 
 
 def is_blank(line):
