@@ -2,7 +2,7 @@
 # Fits every sample pair, tracks a small simulated sequence, and measures both against the truth:
 #   scripts/demo.sh        builds the programs first (minutes, once); results go to build/demo/
 #   ceres_ed_demo [FOLDER]  the same script where ceres_ed is installed; results go to ./ceres_ed_demo/
-# With CERES_ED_BIN=FOLDER in the environment the programs are those in FOLDER, and nothing is built.
+# If the environment variable CERES_ED_BIN names a folder, the programs in it are used, and nothing is built.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 apps=${CERES_ED_BIN:+$(cd "$CERES_ED_BIN" && pwd)}
@@ -18,7 +18,7 @@ fi
 
 say() { printf '\n== %s\n' "$*"; }
 
-# number JSON_FILE OBJECT FIELD: the number FIELD of the top-level object OBJECT; - where there is none.
+# number JSON_FILE OBJECT FIELD: prints the number FIELD of the top-level object OBJECT, or - if there is none.
 number() {
   awk -v object="\"$2\": {" -v field="\"$3\":" '
     index($0, "  " object) == 1 { inside = 1 }
@@ -53,7 +53,8 @@ for source in "$data"/*/source.ply; do
     $(number "$out/eval.json" truth mean_percent) $(number "$out/fit.json" time_s total)")
 done
 
-# From the target, for most of a result has no counterpart where the target is a partial view.
+# The distance is measured from the target: when the target is a partial view, most of the result has no
+# counterpart in it.
 say "mean distances in percent of the target's diagonal, and time; results are in $results/"
 printf '%-18s %18s %18s %10s\n' pair "target to result" "result to truth" seconds
 for row in "${rows[@]}"; do
@@ -70,3 +71,24 @@ say "a camera circles a beating heart: simulate, track, measure"
 "$apps/ed_slam" "$sequence" --output="$sequence-tracked"
 "$apps/ed_eval" --sequence="$sequence" --result="$sequence-tracked" \
   --report="$sequence-tracked/eval.json"
+
+say "what to open"
+cat <<END
+Open these PLY files with MeshLab or CloudCompare (Debian packages meshlab, cloudcompare):
+  $results/PAIR/fitted.ply    the deformed source; open $data/PAIR/target.ply beside it
+  $results/PAIR/error.ply     the same, coloured by the distance of each point to its true place:
+                              blue is small, white is medium, red is the 95th percentile or more
+  $sequence-tracked/map.ply   the heart as the tracker has it after the last frame
+  $sequence-tracked/live/     the map in every frame, as the camera sees it
+END
+say "figures that look alarming, and are not"
+cat <<END
+- In heart, kidney and stomach_partial the target shows 40 to 45 % of the surface. "target to result"
+  measures this part. "result to target" and "result to truth" include the hidden part, which no data
+  determine: about 2 % to the truth is what can be expected. For the same reason a third of the matches
+  are no inliers.
+- "max_iterations" says that the surface still moved a little in the last round; the result is usable.
+- Tracking: camera and tissue can exchange a motion that the whole view shares, so the camera may be off
+  by millimetres while each map point stays within a fraction of a millimetre of its tissue ("tracking,
+  seen"). Hidden points are predicted, and their errors are larger.
+END
