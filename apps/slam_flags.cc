@@ -42,11 +42,13 @@ using ceres_ed::NameOf;
 DEFINE_string(output, "", "folder to write; required");
 DEFINE_string(
     mode,
-    NameOf(ceres_ed::kModes, Defaults().options.mode),
+    NameOf(ceres_ed::kModes, Defaults().options.levels.strategy.mode),
     "two_level: nodes in view, then the rest; batch: all; marginal: as batch, from those in view");
-DEFINE_int32(rings, Defaults().options.rings, "rings of hidden nodes that level I moves too");
+DEFINE_int32(rings,
+             Defaults().options.levels.strategy.rings,
+             "rings of hidden nodes that level I moves too");
 DEFINE_string(boundary,
-              NameOf(ceres_ed::kBoundaries, Defaults().options.seam_edges),
+              NameOf(ceres_ed::kBoundaries, Defaults().options.levels.strategy.seam_edges),
               "two_level: keep or cut edges across the seam of level I");
 DEFINE_string(level2,
               NameOf(ceres_ed::kLevelTwos, Defaults().options.levels.level_two),
@@ -134,9 +136,9 @@ Status CheckNumbers() {
 
 Status ReadChoices(SlamSettings* settings) {
   SlamOptions* options = &settings->options;
-  Status status = Choose("mode", kModes, FLAGS_mode, &options->mode);
+  Status status = Choose("mode", kModes, FLAGS_mode, &options->levels.strategy.mode);
   if (!status.ok()) return status;
-  status = Choose("boundary", kBoundaries, FLAGS_boundary, &options->seam_edges);
+  status = Choose("boundary", kBoundaries, FLAGS_boundary, &options->levels.strategy.seam_edges);
   if (!status.ok()) return status;
   status = Choose("level2", kLevelTwos, FLAGS_level2, &options->levels.level_two);
   if (!status.ok()) return status;
@@ -157,7 +159,7 @@ Status ReadChoices(SlamSettings* settings) {
 
 void ReadNumbers(SlamSettings* settings) {
   SlamOptions* options = &settings->options;
-  options->rings = FLAGS_rings;
+  options->levels.strategy.rings = FLAGS_rings;
   options->node_spacing = FLAGS_node_spacing;
   options->nodes_in_view = FLAGS_nodes_in_view;
   options->levels.rotation_weight = FLAGS_w_rot;

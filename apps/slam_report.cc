@@ -146,7 +146,7 @@ ordered_json SlamReport(const SlamRun& run) {
   const DeformableSlam& slam = *run.slam;
   return {{"program", "ed_slam"},
           {"version", kVersion},
-          {"mode", SlamModeName(options.mode)},
+          {"mode", SlamModeName(options.levels.strategy.mode)},
           {"camera", CameraModeName(options.camera)},
           {"status", run.status},
           {"message", run.message},

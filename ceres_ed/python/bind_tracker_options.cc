@@ -25,17 +25,17 @@ named like its flags.)");
   options
       .Add(
           "mode",
-          [](O & o) -> auto& { return o.mode; },
+          [](O & o) -> auto& { return o.levels.strategy.mode; },
           kModes,
           "'two_level': nodes in view, then the rest; 'batch': all; 'marginal': as batch, from "
           "those in view.")
       .Add(
           "rings",
-          [](O & o) -> auto& { return o.rings; },
+          [](O & o) -> auto& { return o.levels.strategy.rings; },
           "Rings of hidden nodes that level I moves too, >= 0.")
       .Add(
           "boundary",
-          [](O & o) -> auto& { return o.seam_edges; },
+          [](O & o) -> auto& { return o.levels.strategy.seam_edges; },
           kBoundaries,
           "two_level: 'keep' or 'cut' edges across the seam of level I.")
       .Add(

@@ -124,8 +124,8 @@ void FeaturePoints::Exchange(CheckpointArchive* archive) {
 }
 
 void Levels::ForgetSolvers() {
-  level_one_ = MakeLevelSolver(options_.linear_solver);
-  level_two_ = MakeLevelSolver(options_.linear_solver);
+  level_one_ = MakeLevelSolver(options_.strategy.linear_solver);
+  level_two_ = MakeLevelSolver(options_.strategy.linear_solver);
   MakeMarginal();
 }
 

@@ -29,8 +29,7 @@ bool SlamOptions::IsValid(std::string* error) const {
   const auto require = [error](bool holds, const char* option, double value, const char* expected) {
     return RequireOption(holds, option, value, expected, error);
   };
-  return require(rings >= 0, "rings", rings, ">= 0") &&
-         require(node_spacing >= 0.0 && std::isfinite(node_spacing),
+  return require(node_spacing >= 0.0 && std::isfinite(node_spacing),
                  "node_spacing",
                  node_spacing,
                  "metres >= 0") &&
@@ -46,7 +45,7 @@ bool SlamOptions::IsValid(std::string* error) const {
          require(growth.point_spacing > 0.0, "growth.point_spacing", growth.point_spacing, "> 0") &&
          require(growth.node_coverage > 0.0, "growth.node_coverage", growth.node_coverage, "> 0") &&
          require(feature.count >= 0, "feature.count", feature.count, ">= 0") &&
-         levels.lazy.IsValid(error) && levels.solver.IsValid(error);
+         levels.IsValid(error);
 }
 
 StatusOr<std::unique_ptr<DeformableSlam>> DeformableSlam::Create(const PinholeCamera& camera,

@@ -61,21 +61,18 @@ struct LevelsOptions {
   double prior_rotation_deg = 0.5;
   double prior_translation = 0.1;
   bool camera_variable = true;
-  // Rings of PI nodes that Level I moves too; -1 moves every node: the batch solve.
-  int rings = 2;
-  SeamEdges seam_edges = SeamEdges::kKeep;
-  // Marginalise the PI nodes around Level I instead of holding them: those within
-  // `marginal_reach` rings, or all of them where Level II is full.
-  bool marginal = false;
-  int marginal_reach = 8;
+  // Which nodes a level moves. By default kTwoLevel; kMarginal eliminates the PI nodes within 8
+  // rings, or all of them where Level II is full.
+  StrategyOptions strategy;
   LevelTwoMode level_two = LevelTwoMode::kLazy;
   LazyOptions lazy;
-  LinearSolver linear_solver = LinearSolver::kBlock;
   // One step by default: the observations change with it. More are taken only where the first ones
   // bring nothing.
   SolverOptions solver;
   // More energies, by name.
   std::vector<EnergySpec> energies;
+
+  bool IsValid(std::string* error) const;
 };
 
 struct PixelTrackerOptions {
@@ -136,10 +133,6 @@ struct TissueMemoryOptions {
 };
 
 struct SlamOptions {
-  SolveMode mode = SolveMode::kTwoLevel;
-  // Of Level I, >= 0.
-  int rings = 2;
-  SeamEdges seam_edges = SeamEdges::kKeep;
   CameraMode camera = CameraMode::kEstimate;
   // Metres; 0 = so that about `nodes_in_view` nodes cover what the first frame shows.
   double node_spacing = 0.0;
@@ -157,6 +150,8 @@ struct SlamOptions {
   TissueMemoryOptions memory;
   // Hold every n-th frame against the batch solve of its last problem, on a copy; 0 = none.
   int verify_every = 0;
+  // Threads of everything that a frame takes, whatever the options below say, >= 1; the result
+  // doesn't depend on it.
   int num_threads = 1;
   LevelsOptions levels;
   FeatureOptions feature;

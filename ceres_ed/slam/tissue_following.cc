@@ -120,7 +120,7 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
     const double gain = level.initial_energy - level.energy;
     if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
-  if (options_.mode == SolveMode::kMarginal) {
+  if (options_.levels.strategy.mode == SolveMode::kMarginal) {
     take(levels_->FinishLevelOne(observations, &memory_, &map_));
   }
   return observations;
@@ -128,7 +128,7 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
 
 // Level II.
 void Tracker::FollowHidden(bool catch_up, FrameReport* report) {
-  if (options_.mode == SolveMode::kBatch) return;
+  if (options_.levels.strategy.mode == SolveMode::kBatch) return;
   Timer timer;
   NoteRecalled();
   NoteNewNodes();

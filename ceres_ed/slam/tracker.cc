@@ -39,25 +39,28 @@ double VisibleArea(const ObservedSurface& surface) {
 
 }  // namespace
 
+SlamOptions WithSharedSettings(SlamOptions options) {
+  options.surface.num_threads = options.num_threads;
+  options.feature.pixels.num_threads = options.num_threads;
+  options.levels.solver.num_threads = options.num_threads;
+  options.levels.camera_variable = options.camera == CameraMode::kEstimate;
+  return options;
+}
+
 Tracker::Tracker(const PinholeCamera& camera, const SlamOptions& options)
     : camera_(camera),
-      options_(options),
-      map_(options.neighbors),
-      features_(options.feature),
-      memory_(options.memory) {}
+      options_(WithSharedSettings(options)),
+      map_(options_.neighbors),
+      features_(options_.feature),
+      memory_(options_.memory) {}
 
 Status Tracker::AddLevels(const EnergyRegistry& registry) {
-  LevelsOptions levels = options_.levels;
-  levels.rings = options_.mode == SolveMode::kBatch ? -1 : options_.rings;
-  levels.seam_edges = options_.seam_edges;
-  levels.marginal = options_.mode == SolveMode::kMarginal;
-  levels.camera_variable = options_.camera == CameraMode::kEstimate;
-  levels.solver.num_threads = options_.num_threads;
-  StatusOr<std::unique_ptr<Levels>> created = Levels::Create(levels, registry);
+  StatusOr<std::unique_ptr<Levels>> created = Levels::Create(options_.levels, registry);
   if (!created.ok()) return created.status();
   levels_ = *std::move(created);
   if (options_.verify_every > 0) {
-    StatusOr<std::unique_ptr<BatchReference>> batch = BatchReference::Create(levels, registry);
+    StatusOr<std::unique_ptr<BatchReference>> batch =
+        BatchReference::Create(options_.levels, registry);
     if (!batch.ok()) return batch.status();
     batch_ = *std::move(batch);
   }

@@ -23,6 +23,10 @@
 
 namespace ceres_ed {
 
+// Returns `options` with what is set once for all stages handed on to each: the number of threads,
+// and whether the levels move the camera.
+SlamOptions WithSharedSettings(SlamOptions options);
+
 class Tracker final : public DeformableSlam {
  public:
   Tracker(const PinholeCamera& camera, const SlamOptions& options);

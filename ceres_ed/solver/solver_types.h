@@ -98,6 +98,9 @@ struct StrategyOptions {
   // no unit, >= 0. It changes the number of steps and what one costs, not the minimum. Much above
   // the default the soft modes of a large hidden part go astray, and steps are refused.
   double relinearize_above = 0.003;
+  // kMarginal: rings beyond those that are eliminated, >= 1; the nodes behind them are held. -1:
+  // all that are left are eliminated.
+  int marginal_reach = -1;
 
   bool IsValid(std::string* error) const;
 };

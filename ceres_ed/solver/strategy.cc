@@ -129,7 +129,12 @@ bool SolverOptions::IsValid(std::string* error) const {
 bool StrategyOptions::IsValid(std::string* error) const {
   return RequireOption(rings >= 0, "rings", rings, ">= 0", error) &&
          RequireOption(
-             relinearize_above >= 0.0, "relinearize_above", relinearize_above, ">= 0", error);
+             relinearize_above >= 0.0, "relinearize_above", relinearize_above, ">= 0", error) &&
+         RequireOption(marginal_reach == -1 || marginal_reach >= 1,
+                       "marginal_reach",
+                       marginal_reach,
+                       "-1 or >= 1",
+                       error);
 }
 
 std::string SolveStatusName(SolveStatus status) {

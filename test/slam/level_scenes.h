@@ -126,8 +126,8 @@ inline double LargestDifference(const DeformationState& a, const DeformationStat
 // known no better than to the root of it: three steps, whatever they gain.
 inline LevelsOptions ThreeSteps(int rings, SeamEdges seam_edges) {
   LevelsOptions options;
-  options.rings = rings;
-  options.seam_edges = seam_edges;
+  options.strategy.rings = rings;
+  options.strategy.seam_edges = seam_edges;
   options.solver.max_iterations = 3;
   options.solver.function_tolerance = 0.0;
   options.solver.gradient_tolerance = 0.0;
@@ -138,8 +138,8 @@ inline LevelsOptions ThreeSteps(int rings, SeamEdges seam_edges) {
 // Solves as far as the digits of the energy allow.
 inline LevelsOptions ExactLevels(int rings, SeamEdges seam_edges) {
   LevelsOptions options;
-  options.rings = rings;
-  options.seam_edges = seam_edges;
+  options.strategy.rings = rings;
+  options.strategy.seam_edges = seam_edges;
   options.solver.max_iterations = 300;
   options.solver.function_tolerance = 0.0;
   options.solver.gradient_tolerance = 1e-14;

@@ -34,8 +34,8 @@ LevelSummary SolveWholeLevelOne(const LevelScene& scene,
   const ProblemConfig config = LevelOneConfig(scene.map.graph(),
                                               builder->PointRelevantNodes(),
                                               /*has_camera=*/true,
-                                              options.seam_edges,
-                                              options.rings);
+                                              options.strategy.seam_edges,
+                                              options.strategy.rings);
   SolveSummary summary;
   EXPECT_TRUE(
       MakeLevelSolver(linear_solver)->Solve(*builder, config, options.solver, state, &summary));
@@ -103,9 +103,10 @@ TEST(Levels, BothLevelsEqualTheTwoLevelStrategy) {
   }
 }
 
-TEST(Levels, WithoutRingsToCountEqualTheBatchStrategy) {
+TEST(Levels, OfBatchEqualTheBatchStrategy) {
   LevelScene scene;
-  const LevelsOptions options = ThreeSteps(-1, SeamEdges::kKeep);
+  LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
+  options.strategy.mode = SolveMode::kBatch;
   const auto builder = scene.WholeProblem(options);
   DeformationState expected = scene.map.state();
   const SolveSummary summary =
@@ -121,8 +122,8 @@ TEST(Levels, LeaveHeldNodesAsTheyAreToTheBit) {
   for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
     LevelScene scene;
     LevelsOptions options;
-    options.rings = 1;
-    options.seam_edges = seam;
+    options.strategy.rings = 1;
+    options.strategy.seam_edges = seam;
     options.level_two = LevelTwoMode::kFull;
     const auto levels = MakeLevels(options);
     const DeformationState start = scene.map.state();
@@ -191,7 +192,7 @@ class LazyLevelTwoTest : public ::testing::Test {
  protected:
   static LevelsOptions Options(LevelTwoMode mode) {
     LevelsOptions options;
-    options.rings = 1;
+    options.strategy.rings = 1;
     options.level_two = mode;
     // So that a wave has something to push.
     options.node_prior_weight = 0.002;

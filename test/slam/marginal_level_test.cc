@@ -12,8 +12,8 @@ namespace {
 
 LevelsOptions Marginal(LevelTwoMode level_two) {
   LevelsOptions options;
-  options.marginal = true;
-  options.rings = 0;
+  options.strategy.mode = SolveMode::kMarginal;
+  options.strategy.rings = 0;
   options.level_two = level_two;
   return options;
 }
@@ -22,7 +22,7 @@ TEST(MarginalLevels, TakeTheBatchStep) {
   LevelScene scene;
   LevelsOptions marginal = Marginal(LevelTwoMode::kFull);
   LevelsOptions batch;
-  batch.rings = -1;
+  batch.strategy.mode = SolveMode::kBatch;
   // Gauss-Newton: damping is another for each of the two.
   marginal.solver.initial_trust_region_radius = 1e14;
   batch.solver.initial_trust_region_radius = 1e14;
@@ -45,7 +45,7 @@ TEST(MarginalLevels, TakeTheBatchStep) {
 TEST(MarginalLevels, FinishAtTheBatchMinimum) {
   LevelScene scene;
   LevelsOptions batch;
-  batch.rings = -1;
+  batch.strategy.mode = SolveMode::kBatch;
   DeformableMap expected = scene.map;
   const auto reference = MakeLevels(batch);
   const auto levels = MakeLevels(Marginal(LevelTwoMode::kFull));
@@ -65,8 +65,8 @@ TEST(MarginalLevels, FinishAtTheBatchMinimum) {
 TEST(MarginalLevels, EliminateWithinTheirReach) {
   LevelScene scene(30);
   LevelsOptions options = Marginal(LevelTwoMode::kLazy);
-  options.rings = 1;
-  options.marginal_reach = 3;
+  options.strategy.rings = 1;
+  options.strategy.marginal_reach = 3;
   const auto levels = MakeLevels(options);
   const DeformationState before = scene.map.state();
   const LevelReport report = levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
@@ -88,9 +88,9 @@ NodeSet Range(int first, int last) {
 
 TEST(MarginalLevel, KeepsItsNodesWhileTheyServe) {
   const LevelScene scene(30);
-  MarginalLevelOptions options;
+  StrategyOptions options;
   options.rings = 1;
-  options.reach = 4;
+  options.marginal_reach = 4;
   MarginalLevel level(options);
   level.Choose(scene.map.graph(), Range(40, 60));
   EXPECT_EQ(level.kept().size(), 28u);

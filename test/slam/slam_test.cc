@@ -1,6 +1,7 @@
 #include "ceres_ed/slam/slam.h"
 
 #include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/slam/tracker.h>
 
 #include <cmath>
 #include <limits>
@@ -108,7 +109,7 @@ TEST(DeformableSlam, IsVerifiedWithoutAnEffectOnTheRun) {
 
 TEST(DeformableSlam, EndsAtTheBatchMinimumWhenItMarginalises) {
   SlamOptions options = FastOptions();
-  options.mode = SolveMode::kMarginal;
+  options.levels.strategy.mode = SolveMode::kMarginal;
   options.verify_every = 2;
   const SlamRun run(StripSequence(), options);
   double sum = 0.0;
@@ -121,7 +122,6 @@ TEST(DeformableSlam, EndsAtTheBatchMinimumWhenItMarginalises) {
   EXPECT_EQ(count, 3);
   EXPECT_LT(sum / count, 1e-4);
   options.num_threads = 2;
-  options.surface.num_threads = 2;
   EXPECT_TRUE(Bytes(run) == Bytes(SlamRun(StripSequence(), options)));
 }
 
@@ -194,9 +194,9 @@ TEST(DeformableSlam, FollowsGivenPoses) {
 
 TEST(DeformableSlam, TwoLevelAgreesWithBatch) {
   SlamOptions options = FastOptions();
-  options.rings = 0;
+  options.levels.strategy.rings = 0;
   const SlamRun two_level(StripSequence(), options);
-  options.mode = SolveMode::kBatch;
+  options.levels.strategy.mode = SolveMode::kBatch;
   const SlamRun batch(StripSequence(), options);
   EXPECT_GT(two_level.reports.back().updated_pi, 0);
   EXPECT_EQ(batch.reports.back().updated_pi, 0);
@@ -255,13 +255,33 @@ TEST(FrameStatusName, IsOneWordForEach) {
   EXPECT_EQ(FrameStatusName(FrameStatus::kSkipped), "skipped");
 }
 
+TEST(WithSharedSettings, HandsThreadsAndCameraToEveryStage) {
+  SlamOptions options;
+  options.num_threads = 3;
+  EXPECT_TRUE(WithSharedSettings(options).levels.camera_variable);
+  options.camera = CameraMode::kGiven;
+  const SlamOptions shared = WithSharedSettings(options);
+  EXPECT_EQ(shared.surface.num_threads, 3);
+  EXPECT_EQ(shared.feature.pixels.num_threads, 3);
+  EXPECT_EQ(shared.levels.solver.num_threads, 3);
+  EXPECT_FALSE(shared.levels.camera_variable);
+}
+
 TEST(SlamOptions, NameWhatIsOutOfRange) {
   EnergyRegistry registry;
   RegisterBuiltinEnergies(&registry);
   SlamOptions options;
-  options.rings = -1;
+  options.levels.strategy.rings = -1;
   EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
             "rings is -1, expected >= 0");
+  options = SlamOptions();
+  options.levels.rotation_weight = -1.0;
+  EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
+            "rotation_weight is -1, expected finite and >= 0");
+  options = SlamOptions();
+  options.levels.prior_translation = 0.0;
+  EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
+            "prior_translation is 0, expected finite and > 0");
   options = SlamOptions();
   options.neighbors = 9;
   EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),

@@ -8,8 +8,7 @@ namespace ceres_ed {
 namespace {
 
 LevelsOptions ConvergedBatch(LevelsOptions options) {
-  options.rings = -1;
-  options.marginal = false;
+  options.strategy.mode = SolveMode::kBatch;
   options.solver.max_iterations = 100;
   options.solver.function_tolerance = 1e-9;
   options.solver.gradient_tolerance = 1e-12;

@@ -128,7 +128,7 @@ LevelReport Levels::CatchUp(const std::vector<int>& nodes,
 void Levels::CatchUpCopy(NodePriorSource* priors, DeformableMap* copy) {
   const PendingNodes pending = pending_;
   std::unique_ptr<LevelSolver> kept =
-      std::exchange(level_two_, MakeLevelSolver(options_.linear_solver));
+      std::exchange(level_two_, MakeLevelSolver(options_.strategy.linear_solver));
   CatchUp(priors, copy);
   pending_ = pending;
   level_two_ = std::move(kept);

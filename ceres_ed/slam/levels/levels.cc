@@ -2,6 +2,7 @@
 
 #include <ceres_ed/graph/node_neighborhood.h>
 #include <ceres_ed/slam/levels/window_observations.h>
+#include <ceres_ed/util/option_check.h>
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,15 @@ SolverOptions OneStep() {
   return options;
 }
 
+// Of the hidden nodes only those that are near Level I are marginalised: a frame's time must not
+// grow with the map.
+StrategyOptions TwoLevels() {
+  StrategyOptions options;
+  options.mode = SolveMode::kTwoLevel;
+  options.marginal_reach = 8;
+  return options;
+}
+
 // Where a frame's last problem is solved to its end.
 constexpr int kFinishSteps = 20;
 constexpr double kFinishTolerance = 1e-5;
@@ -34,7 +44,26 @@ double MotionOf(const double* before, const double* after) {
 
 }  // namespace
 
-LevelsOptions::LevelsOptions() : solver(OneStep()) {}
+LevelsOptions::LevelsOptions() : strategy(TwoLevels()), solver(OneStep()) {}
+
+bool LevelsOptions::IsValid(std::string* error) const {
+  const auto require = [error](bool holds, const char* option, double value, const char* expected) {
+    return RequireOption(holds, option, value, expected, error);
+  };
+  const auto weight = [&require](const char* option, double value) {
+    return require(std::isfinite(value) && value >= 0.0, option, value, "finite and >= 0");
+  };
+  const auto spread = [&require](const char* option, double value) {
+    return require(std::isfinite(value) && value > 0.0, option, value, "finite and > 0");
+  };
+  return weight("rotation_weight", rotation_weight) &&
+         weight("regularization_weight", regularization_weight) &&
+         weight("node_prior_weight", node_prior_weight) && weight("plane_weight", plane_weight) &&
+         weight("feature_weight", feature_weight) &&
+         spread("prior_rotation_deg", prior_rotation_deg) &&
+         spread("prior_translation", prior_translation) && strategy.IsValid(error) &&
+         lazy.IsValid(error) && solver.IsValid(error);
+}
 
 StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
                                                  const EnergyRegistry& registry) {
@@ -65,19 +94,15 @@ StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
     term.is_users = levels->terms_.size() >= num_own;
     levels->terms_.push_back(std::move(term));
   }
-  levels->level_one_ = MakeLevelSolver(options.linear_solver);
-  levels->level_two_ = MakeLevelSolver(options.linear_solver);
-  levels->MakeMarginal();
+  levels->ForgetSolvers();
   return levels;
 }
 
 void Levels::MakeMarginal() {
-  if (!options_.marginal) return;
-  MarginalLevelOptions marginal;
-  marginal.rings = options_.rings;
-  marginal.reach = options_.level_two == LevelTwoMode::kFull ? -1 : options_.marginal_reach;
-  marginal.linear_solver = options_.linear_solver;
-  marginal_ = std::make_unique<MarginalLevel>(marginal);
+  if (options_.strategy.mode != SolveMode::kMarginal) return;
+  StrategyOptions strategy = options_.strategy;
+  if (options_.level_two == LevelTwoMode::kFull) strategy.marginal_reach = -1;
+  marginal_ = std::make_unique<MarginalLevel>(strategy);
 }
 
 void Levels::MarkPointRelevant(const FrameObservations& observations) {
@@ -92,13 +117,13 @@ void Levels::MarkPointRelevant(const FrameObservations& observations) {
 
 void Levels::MarkMoved(const DeformableMap& map) {
   moved_.Clear();
-  if (options_.rings < 0) {
+  if (options_.strategy.mode == SolveMode::kBatch) {
     for (int j = 0; j < map.graph().num_nodes(); ++j) moved_.Add(j);
     return;
   }
   for (const int node : point_relevant_.nodes()) moved_.Add(node);
   AddRings(
-      map.graph(), options_.rings, [](int) { return true; }, &moved_);
+      map.graph(), options_.strategy.rings, [](int) { return true; }, &moved_);
   moved_.Sort();
 }
 
@@ -162,7 +187,7 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
     if (marginal_ != nullptr) {
       return marginal_->Solve(builder, camera, steps, &window, summary);
     }
-    const ProblemConfig config = window.Config(camera, options_.seam_edges);
+    const ProblemConfig config = window.Config(camera, options_.strategy.seam_edges);
     return level_one_->Solve(builder, config, steps, &window.state, summary);
   };
   std::vector<double> motion;

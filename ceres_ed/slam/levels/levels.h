@@ -117,7 +117,9 @@ class Levels {
   explicit Levels(const LevelsOptions& options)
       : options_(options), pending_(options.lazy.tolerance) {}
   // Whether nodes may be left behind.
-  bool IsLazy() const { return options_.rings >= 0 && options_.level_two == LevelTwoMode::kLazy; }
+  bool IsLazy() const {
+    return options_.strategy.mode != SolveMode::kBatch && options_.level_two == LevelTwoMode::kLazy;
+  }
   void MakeMarginal();
   void MarkPointRelevant(const FrameObservations& observations);
   void MarkMoved(const DeformableMap& map);

@@ -16,7 +16,7 @@ constexpr double kMostIdle = 0.5;
 
 }  // namespace
 
-MarginalLevel::MarginalLevel(const MarginalLevelOptions& options)
+MarginalLevel::MarginalLevel(const StrategyOptions& options)
     : options_(options), level_one_(MakeLevelSolver(options.linear_solver)) {}
 
 bool MarginalLevel::StillServes(const NodeSet& point_relevant) const {
@@ -43,11 +43,11 @@ void MarginalLevel::Choose(const DeformationGraph& graph, const NodeSet& point_r
   kept_ = is_kept_.nodes();
   reached_.Clear();
   for (const int node : kept_) reached_.Add(node);
-  if (options_.reach < 0) {
+  if (options_.marginal_reach < 0) {
     for (int node = 0; node < graph.num_nodes(); ++node) reached_.Add(node);
   } else {
     AddRings(
-        graph, options_.reach, [](int) { return true; }, &reached_);
+        graph, options_.marginal_reach, [](int) { return true; }, &reached_);
   }
   is_eliminated_.Clear();
   for (const int node : reached_.nodes()) {
@@ -75,7 +75,7 @@ bool MarginalLevel::Solve(const ProblemBuilder& builder,
   }
   problem.level_one.eliminated_nodes = eliminated.variable_nodes;
   problem.options = &options;
-  problem.relinearize_above = StrategyOptions().relinearize_above;
+  problem.relinearize_above = options_.relinearize_above;
   problem.timer = &timer;
   // A prior of the user's that joins a hidden node to the camera: all of them at once, then, which
   // has the same minimum.

@@ -15,20 +15,12 @@
 
 namespace ceres_ed {
 
-struct MarginalLevelOptions {
-  // Rings of PI nodes that stay beside the PR nodes, >= 0. PR nodes wander: while they stay among
-  // those that stayed, the elimination is used again.
-  int rings = 2;
-  // Rings beyond these that are eliminated, >= 1; the nodes behind are held. -1: all that are left.
-  int reach = 8;
-  LinearSolver linear_solver = LinearSolver::kBlock;
-};
-
 // Chooses which nodes stay and which are eliminated, and takes steps. A step equals one of the
-// batch solve over both.
+// batch solve over both. PR nodes wander: while they stay among the nodes that stayed, the
+// elimination is used again.
 class MarginalLevel {
  public:
-  explicit MarginalLevel(const MarginalLevelOptions& options);
+  explicit MarginalLevel(const StrategyOptions& options);
 
   // Settles the nodes of the next problem: those of the last one, where they still do, so that its
   // factor does, too.
@@ -53,7 +45,7 @@ class MarginalLevel {
  private:
   bool StillServes(const NodeSet& point_relevant) const;
 
-  MarginalLevelOptions options_;
+  StrategyOptions options_;
   std::unique_ptr<LevelSolver> level_one_;
   Marginalization marginalization_;
   std::vector<int> eliminated_;
