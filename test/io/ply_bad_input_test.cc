@@ -39,7 +39,9 @@ TEST(PlyReader, NamesTheBadLineOfAHeader) {
   EXPECT_EQ(ErrorOf(""), "not a PLY file: the first line is not 'ply'");
   EXPECT_EQ(ErrorOf("solid cube\nfacet\n"), "not a PLY file: the first line is not 'ply'");
   EXPECT_EQ(ErrorOf(std::string(3000, '\0')), "not a PLY file: the first line is not 'ply'");
-  EXPECT_EQ(ErrorOf("ply\rformat ascii 1.0\r"), "the lines end in CR alone, expected LF or CR LF");
+  EXPECT_EQ(ErrorOf("plywood\nformat ascii 1.0\n"), "not a PLY file: the first line is not 'ply'");
+  EXPECT_EQ(ErrorOf("ply\rformat ascii 1.0\r"), "truncated: the header has no line 'end_header'");
+  EXPECT_THAT(ErrorOf("ply\rformat ascii 2.0\rend_header\r"), StartsWith("line 2: unknown format"));
   EXPECT_EQ(ErrorOf("ply\nformat ascii 1.0\nelement vertex 1\n"),
             "truncated: the header has no line 'end_header'");
   EXPECT_EQ(ErrorOf("ply\nelement vertex 0\nend_header\n"), "the header has no format line");
@@ -129,6 +131,19 @@ TEST(PlyReader, NamesTheRowInWhichABinaryFileEnds) {
                                        "ab",
                                        5)),
             "truncated: element 'face' promises 3 rows, the file ends in row 1");
+}
+
+// A list cannot be longer than the file, whatever stands in front of it in the row.
+TEST(PlyReader, NamesTheRowOfAListThatIsLongerThanTheFile) {
+  const std::string header =
+      "ply\nformat binary_big_endian 1.0\nelement face 3\nproperty short s\n"
+      "property list ushort double i\nproperty uchar u\nend_header\n";
+  const std::string row = std::string("\0\x07\0\x01", 4) + std::string(8, 'd') + 'u';
+  const std::string error = "truncated: element 'face' promises 3 rows, the file ends in row ";
+  EXPECT_EQ(ErrorOf(header + row + row + std::string("\0\x07\xff\xff", 4) + std::string(70, 'd')),
+            error + "2");
+  EXPECT_EQ(ErrorOf(header + row + std::string("\0\x07\0", 3)), error + "1");
+  EXPECT_EQ(ErrorOf(header + std::string("\0", 1)), error + "0");
 }
 
 // The promised rows would take 32 GB and more.

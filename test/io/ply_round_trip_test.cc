@@ -3,6 +3,7 @@
 #include <ceres_ed/io/mesh/ply_reader.h>
 #include <ceres_ed/io/mesh/ply_writer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -189,7 +190,6 @@ TEST(PlyReader, TakesBlankLinesTabsAndAMissingLastLineEnd) {
   EXPECT_THAT(document->elements[0].properties[0].values, ElementsAre(7, 8));
 }
 
-// Cases in which PCL's parser gets a rewritten header.
 TEST(PlyReader, TakesSignedListCountsAndMixedLineEnds) {
   const TemporaryDirectory directory;
   for (const char* count_type : {"char", "int8", "short", "int16", "int", "int32"}) {
@@ -217,6 +217,77 @@ TEST(PlyReader, TakesSignedListCountsAndMixedLineEnds) {
       const StatusOr<PlyDocument> again = ReadPly(directory / "b.ply");
       ASSERT_TRUE(again.ok());
       ExpectSameDocument(*document, *again);
+    }
+  }
+}
+
+// The header of `bytes` with each line end replaced.
+std::string WithLineEnds(const std::string& bytes, const std::string& line_end) {
+  const std::string last_line = "end_header\n";
+  const std::size_t size = bytes.find(last_line) + last_line.size();
+  std::string header;
+  for (const char c : bytes.substr(0, size)) header += c == '\n' ? line_end : std::string(1, c);
+  return header + bytes.substr(size);
+}
+
+TEST_P(PlyRoundTrip, TakesCarriageReturnsAlone) {
+  const std::string bytes = RichPly(encoding(), false);
+  WriteBytes(directory_ / "lf.ply", bytes);
+  const StatusOr<PlyDocument> expected = ReadPly(directory_ / "lf.ply");
+  ASSERT_TRUE(expected.ok()) << expected.status().message();
+  std::string with_cr = WithLineEnds(bytes, "\r");
+  if (encoding() == Encoding::kAscii) std::replace(with_cr.begin(), with_cr.end(), '\n', '\r');
+  // In a binary file the first line may end otherwise than the rest.
+  const std::string first_alone = "ply\r" + bytes.substr(4);
+  for (const std::string& file : {with_cr, first_alone}) {
+    WriteBytes(directory_ / "cr.ply", file);
+    const StatusOr<PlyDocument> document = ReadPly(directory_ / "cr.ply");
+    ASSERT_TRUE(document.ok()) << document.status().message();
+    ExpectSameDocument(*expected, *document);
+  }
+}
+
+TEST_P(PlyRoundTrip, TakesAByteOrderMarkAndBlanksBehindTheFirstWord) {
+  const std::string bytes = RichPly(encoding(), crlf());
+  WriteBytes(directory_ / "in.ply", bytes);
+  const StatusOr<PlyDocument> expected = ReadPly(directory_ / "in.ply");
+  ASSERT_TRUE(expected.ok()) << expected.status().message();
+  for (const char* const start : {"\xef\xbb\xbfply", "ply ", "ply\t ", "\xef\xbb\xbfply "}) {
+    WriteBytes(directory_ / "other.ply", std::string(start) + bytes.substr(3));
+    const StatusOr<PlyDocument> document = ReadPly(directory_ / "other.ply");
+    ASSERT_TRUE(document.ok()) << document.status().message();
+    ExpectSameDocument(*expected, *document);
+  }
+}
+
+// A body may begin with a byte that could be the rest of a line end.
+TEST(PlyReader, TakesNoByteOfABinaryBodyForALineEnd) {
+  const TemporaryDirectory directory;
+  const std::string header =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty uchar u\nend_header\n";
+  for (const char* line_end : {"\n", "\r\n", "\r"}) {
+    WriteBytes(directory / "a.ply", WithLineEnds(header, line_end) + "\n\r\n");
+    const StatusOr<PlyDocument> document = ReadPly(directory / "a.ply");
+    ASSERT_TRUE(document.ok()) << document.status().message();
+    EXPECT_THAT(document->elements[0].properties[0].values, ElementsAre(10, 13, 10));
+  }
+}
+
+// Rows are taken in blocks.
+TEST(PlyReader, ReadsManyRowsOfManyColumns) {
+  const TemporaryDirectory directory;
+  for (const Encoding encoding : {Encoding::kLittle, Encoding::kBig}) {
+    BodyMaker body(encoding);
+    for (int i = 0; i < 5000; ++i) body.Put<short>(static_cast<short>(-i)).Put<double>(0.1 * i);
+    WriteBytes(directory / "a.ply",
+               std::string("ply\nformat ") + FormatWord(encoding) +
+                   " 1.0\nelement vertex 5000\nproperty short s\nproperty double d\nend_header\n" +
+                   body.body());
+    const StatusOr<PlyDocument> document = ReadPly(directory / "a.ply");
+    ASSERT_TRUE(document.ok()) << document.status().message();
+    for (std::size_t i = 0; i < 5000; ++i) {
+      EXPECT_EQ(document->elements[0].properties[0].values[i], -static_cast<double>(i));
+      EXPECT_EQ(document->elements[0].properties[1].values[i], 0.1 * static_cast<int>(i));
     }
   }
 }

@@ -2,18 +2,19 @@
 #ifndef CERES_ED_IO_MESH_PLY_BINARY_H_
 #define CERES_ED_IO_MESH_PLY_BINARY_H_
 
-#include <ceres_ed/io/mesh/ply_header.h>
+#include <ceres_ed/io/mesh/ply_document.h>
 #include <ceres_ed/util/status.h>
 
-#include <cstddef>
 #include <string>
+#include <string_view>
 
 namespace ceres_ed {
 
-// Returns ok and fills the values of `header->document` from the file `path` of `file_size` bytes,
-// whose header that is. Errors name the row in which the file ends, or the row of a negative list
-// length.
-Status ReadPlyBinaryBody(const std::string& path, std::size_t file_size, PlyHeader* header);
+// Returns ok and fills the values of `document`, whose header is there already, from `body`: the
+// bytes of the file `path` behind its header, of either byte order. Errors name the row in which
+// the file ends, or the row of a negative list length. Memory is taken only for values that `body`
+// has, whatever the header and the lengths of lists promise.
+Status ReadPlyBinaryBody(const std::string& path, std::string_view body, PlyDocument* document);
 
 }  // namespace ceres_ed
 

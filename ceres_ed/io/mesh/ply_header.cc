@@ -90,30 +90,40 @@ bool IsPrintable(std::string_view name) {
       name.begin(), name.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; });
 }
 
+// Some editors put it in front of a text.
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+
+// What ends the lines of `text`: the end of the first line tells.
+std::string_view LineEnds(std::string_view text) {
+  const std::size_t end = text.find_first_of(PlyHeader::kCarriageReturnOrLineFeed);
+  const bool carriage_return_alone =
+      end != std::string_view::npos && text[end] == '\r' && text.substr(end + 1, 1) != "\n";
+  return carriage_return_alone ? PlyHeader::kCarriageReturnOrLineFeed : PlyHeader::kLineFeed;
+}
+
 // Reads one header line after the other into a document.
 class HeaderParser {
  public:
   explicit HeaderParser(std::string path) : path_(std::move(path)) {}
 
   StatusOr<PlyHeader> Parse(std::string_view text) {
+    if (text.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
+      header_.size = kByteOrderMark.size();
+    }
+    header_.line_ends = LineEnds(text);
     while (true) {
-      const std::size_t line_end = text.find('\n', header_.size);
+      const std::size_t line_end = text.find_first_of(header_.line_ends, header_.size);
       if (line_end == std::string_view::npos) return NoEndError(text.substr(header_.size));
       std::string_view line = text.substr(header_.size, line_end - header_.size);
-      const bool carriage_return = !line.empty() && line.back() == '\r';
-      if (carriage_return) line.remove_suffix(1);
+      if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
       header_.size = line_end + 1;
       ++header_.num_lines;
-      if (header_.num_lines == 1) first_carriage_return_ = carriage_return;
-      if (carriage_return != first_carriage_return_ || line.find('\r') != line.npos) {
-        header_.uniform_line_ends = false;
-      }
 
+      const std::vector<std::string_view> words = SplitWords(line);
       if (header_.num_lines == 1) {
-        if (line != "ply") return NotPlyError();
+        if (words.size() != 1 || words[0] != "ply") return NotPlyError();
         continue;
       }
-      const std::vector<std::string_view> words = SplitWords(line);
       if (words.empty()) continue;
       if (words[0] == "end_header") break;
       Status status = ParseLine(line, words);
@@ -238,9 +248,6 @@ class HeaderParser {
     if (header_.num_lines > 0) {
       return Status::Error(path_ + ": truncated: the header has no line 'end_header'");
     }
-    if (rest.substr(0, 4) == "ply\r") {
-      return Status::Error(path_ + ": the lines end in CR alone, expected LF or CR LF");
-    }
     if (rest == "ply") return Status::Error(path_ + ": truncated: nothing behind the line 'ply'");
     return NotPlyError();
   }
@@ -248,7 +255,6 @@ class HeaderParser {
   std::string path_;
   PlyHeader header_;
   bool has_format_ = false;
-  bool first_carriage_return_ = false;
 };
 
 }  // namespace

@@ -18,12 +18,18 @@ struct PlyHeader {
   std::size_t size = 0;
   // Lines up to and with `end_header`.
   int num_lines = 0;
-  // Whether all lines end the way the first does (LF or CR LF).
-  bool uniform_line_ends = true;
+  // Where a line of the file ends: at an LF, which a CR may precede, or in a file whose first line
+  // ends in CR alone at either of them.
+  std::string_view line_ends = kLineFeed;
+
+  static constexpr std::string_view kLineFeed = "\n";
+  static constexpr std::string_view kCarriageReturnOrLineFeed = "\r\n";
 };
 
 // Returns the header at the start of `text` (the first bytes of the file `path`), or an error that
 // names the line and what was expected. Checks all but the counts, which only the body can tell.
+// Lines end in LF, CR LF or CR alone, as the first one does; a byte order mark of UTF-8 may stand
+// in front, and blanks may stand behind a line.
 StatusOr<PlyHeader> ParsePlyHeader(const std::string& path, std::string_view text);
 
 // Returns the header of `document` as text, with LF line ends, up to and with `end_header`.

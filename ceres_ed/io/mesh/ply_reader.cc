@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <string_view>
 #include <utility>
 
 namespace ceres_ed {
@@ -16,6 +15,14 @@ namespace {
 // No header comes near it; keeps a large file of another kind from being read to its end.
 constexpr std::size_t kMaxHeaderSize = 1 << 20;
 
+// The next `size` bytes of the file; fewer where it ends, which the readers of bodies notice.
+std::string ReadBytes(std::size_t size, std::ifstream* file) {
+  std::string bytes(size, '\0');
+  file->read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(file->gcount()));
+  return bytes;
+}
+
 }  // namespace
 
 StatusOr<PlyDocument> ReadPly(const std::string& path) {
@@ -23,23 +30,15 @@ StatusOr<PlyDocument> ReadPly(const std::string& path) {
   const StatusOr<std::size_t> file_size = OpenRegularFile(path, &file);
   if (!file_size.ok()) return file_size.status();
 
-  std::string start(std::min(*file_size, kMaxHeaderSize), '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
-  start.resize(static_cast<std::size_t>(file.gcount()));
+  const std::string start = ReadBytes(std::min(*file_size, kMaxHeaderSize), &file);
   StatusOr<PlyHeader> header = ParsePlyHeader(path, start);
   if (!header.ok()) return header.status();
-  file.close();
-
-  Status status = Status::Ok();
-  if (header->document.format == PlyFormat::kAscii) {
-    const StatusOr<std::string> text = ReadWholeFile(path);
-    if (!text.ok()) return text.status();
-    const std::string_view body =
-        std::string_view(*text).substr(std::min(header->size, text->size()));
-    status = ReadPlyAsciiBody(path, body, header->num_lines, &header->document);
-  } else {
-    status = ReadPlyBinaryBody(path, *file_size, &*header);
-  }
+  file.clear();
+  file.seekg(static_cast<std::streamoff>(header->size));
+  const std::string body = ReadBytes(*file_size - std::min(*file_size, header->size), &file);
+  const Status status = header->document.format == PlyFormat::kAscii
+                            ? ReadPlyAsciiBody(path, body, &*header)
+                            : ReadPlyBinaryBody(path, body, &header->document);
   if (!status.ok()) return status;
   return std::move(header->document);
 }

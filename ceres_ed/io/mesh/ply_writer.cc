@@ -1,6 +1,7 @@
 #include "ceres_ed/io/mesh/ply_writer.h"
 
 #include <ceres_ed/io/atomic_file.h>
+#include <ceres_ed/io/mesh/byte_order.h>
 #include <ceres_ed/io/mesh/ply_header.h>
 
 #include <algorithm>
@@ -20,13 +21,6 @@ namespace {
 
 // Bytes collected before they go to the stream.
 constexpr std::size_t kChunkSize = 1 << 16;
-
-bool HostIsLittleEndian() {
-  const std::uint16_t one = 1;
-  unsigned char first_byte = 0;
-  std::memcpy(&first_byte, &one, 1);
-  return first_byte == 1;
-}
 
 template <typename T>
 T Narrow(double value) {
