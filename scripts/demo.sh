@@ -27,14 +27,18 @@ number() {
     END { if (!found) print "-" }' "$1"
 }
 
-if [[ -z $apps ]]; then
-  apps=build/release/apps
-  say "packages"
-  scripts/setup.sh
+# build_programs LIST NAME ...: installs the packages of LIST and builds programs, unless they were named.
+build_programs() {
+  if [[ -n $apps ]]; then return; fi
+  say "packages for ${*:2}"
+  scripts/setup.sh "$1"
   say "programs (the first time takes a few minutes)"
   scripts/configure.sh release
-  cmake --build build/release --parallel "$(nproc)" --target ed_fit ed_eval ed_slam ed_simulate
-fi
+  cmake --build build/release --parallel "$(nproc)" --target "${@:2}"
+}
+
+build_programs fit ed_fit ed_eval
+programs=${apps:-build/release/apps}
 
 rows=()
 for source in "$data"/*/source.ply; do
@@ -43,11 +47,11 @@ for source in "$data"/*/source.ply; do
   out=$results/$pair
   mkdir -p "$out"
   say "$pair: fit $source to $folder/target.ply"
-  "$apps/ed_fit" "$source" "$folder/target.ply" --output="$out/fitted.ply" \
+  "$programs/ed_fit" "$source" "$folder/target.ply" --output="$out/fitted.ply" \
     --warp="$out/warp.json" --report="$out/fit.json"
   truth=()
   if [[ -f $folder/gt.ply ]]; then truth=(--truth="$folder/gt.ply"); fi
-  "$apps/ed_eval" "$out/fitted.ply" "$folder/target.ply" --source="$source" "${truth[@]}" \
+  "$programs/ed_eval" "$out/fitted.ply" "$folder/target.ply" --source="$source" "${truth[@]}" \
     --report="$out/eval.json" --error_ply="$out/error.ply"
   rows+=("$pair $(number "$out/eval.json" backward mean_percent) \
     $(number "$out/eval.json" truth mean_percent) $(number "$out/fit.json" time_s total)")
@@ -65,11 +69,13 @@ for row in "${rows[@]}"; do
   printf '%-18s %18s %18s %10s\n' "$pair" "$surface" "$truth" "$seconds"
 done
 
+# The packages that read pictures are as large as all others together, so a fit does not wait for them.
+build_programs tracking ed_slam ed_simulate
 sequence=$results/heart
 say "a camera circles a beating heart: simulate, track, measure"
-"$apps/ed_simulate" heart --output="$sequence" --frames=20 --width=320 --height=240 --overwrite
-"$apps/ed_slam" "$sequence" --output="$sequence-tracked"
-"$apps/ed_eval" --sequence="$sequence" --result="$sequence-tracked" \
+"$programs/ed_simulate" heart --output="$sequence" --frames=20 --width=320 --height=240 --overwrite
+"$programs/ed_slam" "$sequence" --output="$sequence-tracked"
+"$programs/ed_eval" --sequence="$sequence" --result="$sequence-tracked" \
   --report="$sequence-tracked/eval.json"
 
 say "what to open"

@@ -1,17 +1,50 @@
 #!/usr/bin/env bash
-# Installs what ceres_ed is built from: Debian 12 packages, only those that are missing.
+# Installs Debian 12 packages that ceres_ed is built from, only those that are missing:
+#   setup.sh [LIST ...]   (demo)
+#   fit       the library, ed_fit, ed_apply, ed_eval
+#   tracking  fit, and what reads pictures: ed_slam, ed_simulate
+#   demo      what scripts/demo.sh needs: tracking
+#   python    the Python package
+#   pcl       the module for PCL and .pcd files
+#   packages  what scripts/package.sh makes Debian packages with
+#   docs      what scripts/docs.sh makes the API pages with
+#   test      what scripts/test.sh needs: all of the above
+#   lint      clang-format and clang-tidy
+#   all       test and lint
 set -euo pipefail
 
-packages=(
-  build-essential cmake ninja-build ccache pkg-config file
-  libceres-dev libeigen3-dev libsuitesparse-dev libopenblas-dev
-  libgoogle-glog-dev libgflags-dev
-  libnanoflann-dev nlohmann-json3-dev libpcl-dev libboost-dev
-  libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev
-  libgtest-dev libgmock-dev
-  doxygen
-  python3-dev pybind11-dev python3-numpy python3-pytest python3-pil mypy
-)
+packages=()
+add_list() {
+  case "$1" in
+    fit)
+      # libceres-dev depends on SuiteSparse, Eigen, glog and gflags; the runtime of OpenBLAS can be linked.
+      packages+=(g++ cmake ninja-build libceres-dev libeigen3-dev libsuitesparse-dev libgoogle-glog-dev
+        libgflags-dev libopenblas0-pthread libnanoflann-dev nlohmann-json3-dev)
+      ;;
+    tracking)
+      add_list fit
+      packages+=(libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev)
+      ;;
+    demo) add_list tracking ;;
+    python) add_list tracking && packages+=(python3-dev pybind11-dev python3-numpy) ;;
+    pcl) add_list fit && packages+=(libpcl-dev) ;;
+    packages) add_list python && packages+=(dpkg-dev file) ;;
+    docs) packages+=(doxygen python3) ;;
+    test)
+      for list in packages pcl docs; do add_list "$list"; done
+      packages+=(ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy)
+      ;;
+    lint) packages+=(clang-format-14 clang-tidy-14) ;;
+    all) add_list test && add_list lint ;;
+    *)
+      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, packages, docs, test, lint or all" >&2
+      exit 1
+      ;;
+  esac
+}
+
+for list in "${@:-demo}"; do add_list "$list"; done
+mapfile -t packages < <(printf '%s\n' "${packages[@]}" | awk '!seen[$0]++')
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup.sh: this is no Debian; install these yourself (names of Debian 12):" >&2

@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 preset=${1:-release}
-scripts/setup.sh
+scripts/setup.sh test
 scripts/configure.sh "$preset" -DCERES_ED_BUILD_TESTS=ON -DCERES_ED_BUILD_APPS=ON
 cmake --build "build/$preset" --parallel "$(nproc)"
 
