@@ -2,9 +2,10 @@
 # does the installed package, so that no path of the machine that built it is exported.
 
 # ceres_ed_find_external(NAME): sets ceres_ed_NAME_FOUND and, where libNAME is there, defines the target
-# ceres_ed::NAME that links it.
+# ceres_ed::NAME that links it. libNAME.so.0 will do: it takes no development files to link a C library
+# such as OpenBLAS, whose archive is larger than all else that a fit needs.
 macro(ceres_ed_find_external name)
-  find_library(CERES_ED_${name}_LIBRARY ${name})
+  find_library(CERES_ED_${name}_LIBRARY NAMES ${name} lib${name}.so.0)
   mark_as_advanced(CERES_ED_${name}_LIBRARY)
   set(ceres_ed_${name}_FOUND FALSE)
   if(CERES_ED_${name}_LIBRARY)
