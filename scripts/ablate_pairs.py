@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Fits every pair of surfaces with one ingredient of the fit left out, and tabulates what it costs.
+"""Fits every pair of surfaces without one ingredient of the fit, and tabulates what this costs.
 
 The pairs are those of bench_pairs.py. The program is ablate_fit, which is built with the benchmarks
-(-DCERES_ED_BUILD_BENCHMARKS=ON); `ablate_fit --list` tells what can be left out.
+(-DCERES_ED_BUILD_BENCHMARKS=ON); `ablate_fit --list` prints which ingredients can be left out.
 
-A row of the table is a fit without one ingredient, the first one a fit with all of them. Under each
-pair stands the mean error in percent of the diagonal of the target's bounding box: to the truth
-over all source vertices; of a partial target also, after a slash, from the target to the result
-(the side that is seen); without a truth between both surfaces. Flips are flipped triangles of all
-pairs, time is the CPU seconds of all pairs (each the median of --runs) relative to the first row.
-Exits with 1 when a run fails or two runs differ, with 2 on a wrong call.
+The first row of the table is a fit with all ingredients; each other row is a fit without one of them.
+A column of a pair has the mean error in percent of the diagonal of the target's bounding box: to the
+truth over all source vertices; for a partial target also, after a slash, from the target to the
+result (the visible side); without a truth, between both surfaces. Flips are the flipped triangles of
+all pairs. Time is the CPU time of all pairs (for each the median of --runs) relative to the first
+row. The script exits with 1 when a run fails or two runs differ, and with 2 on a wrong call.
 
   scripts/ablate_pairs.py --bin=build/release
   scripts/ablate_pairs.py --pairs=bear_full,dolphin_bend --without=finish,two_levels
@@ -41,15 +41,17 @@ def parse_options():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", default=ROOT / "build/release", type=Path, metavar="DIR",
-                        help="build folder, of apps/ and test/benchmark/ [build/release]")
+                        help="build folder with apps/ and test/benchmark/ [build/release]")
     parser.add_argument("--runs", type=int, default=1, help="fits of each pair and row [1]")
-    parser.add_argument("--jobs", type=int, default=1, help="fits at a time; spoils the times [1]")
+    parser.add_argument("--jobs", type=int, default=1,
+                        help="fits at a time; more than 1 makes times useless [1]")
     parser.add_argument("--pairs", default="", help="names, with commas between [all]")
     parser.add_argument("--without", default="", help="ingredients, with commas between [all]")
     parser.add_argument("--data", action="append", type=Path, metavar="DIR",
                         help="folder of pairs, repeatable [data/ and $CERES_ED_DATA]")
     parser.add_argument("--json", metavar="FILE", help="also write every figure there")
-    parser.add_argument("--page", metavar="FILE", help="also put the table between the marks there")
+    parser.add_argument("--page", metavar="FILE",
+                        help="also put the table between the marks of this page")
     options = parser.parse_args()
     for name in ("runs", "jobs"):
         if getattr(options, name) < 1:

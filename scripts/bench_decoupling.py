@@ -1,32 +1,35 @@
 #!/usr/bin/env python3
-"""Measures what decoupling loses and saves: the energy against batch's, time against the map.
+"""Measures what decoupling loses and saves: energy against batch, and time against the size of the map.
 
-Three parts, each of which can be made alone (--only) and then joins what the others left in --work:
+It has three parts. Each can be made alone (--only); the results of the others are then read from --work.
 
-  strip  a camera along a long band, 320 x 240, with about 300 nodes in view. Of the frames up to
-         each of --sizes nodes: median time of the last 50, whole (t_total of frames.csv: all but
-         reading and writing) and by stage, their ratio from the first size to the last, and the
-         slope of log time over log nodes. Beside it batch, marginal and the paper's scheme (no
-         rings, all of level II) take a few frames from the default run's last checkpoint before
-         the size: milliseconds, and in brackets those of the default run on the same frames. Each
-         has --budget_s; what fails or gets no frame is said, and not tried at larger sizes
-  paired both ends of that strip in turn, 50 frames each, three times: the ratio that a machine which
-         gets faster and slower doesn't spoil
-  gap    whole sequences: a strip of --gap_nodes nodes, and the organs. Each scheme: median time of
-         the last 50 frames, relative to batch's; energy above that of a batch solve of the same
-         frame (--verify_every of ed_slam: mean and largest); and errors by ed_eval, means: of
-         seen map points to the true surface, of tracking, seen and hidden
+  strip  A camera moves along a long band, with 320 x 240 pixels and about 300 nodes in view. At each of
+         --sizes nodes the table has the median time of the last 50 frames, in total (t_total of
+         frames.csv: without reading and writing) and by stage. It also has the ratio of times from the
+         first size to the last, and the slope of log time over log nodes. Batch, marginal and the
+         paper's scheme (no rings, all of Level II) take a few frames from the last checkpoint of the
+         default run before that size: milliseconds, and in brackets their ratio to the default run on
+         the same frames. Each of these has --budget_s. A scheme that fails or finishes no frame in it is
+         reported, and not tried at larger sizes.
+  paired Both ends of that strip take turns, 50 frames each, three times. A machine whose speed changes
+         does not spoil this ratio.
+  gap    Whole sequences: a strip of --gap_nodes nodes, and the organs. For each scheme: the median time
+         of the last 50 frames, relative to batch; the energy above that of a batch solve of the same
+         frame (--verify_every of ed_slam; mean and largest); and the mean errors by ed_eval: distance of
+         visible map points to the true surface, and tracking errors of visible and hidden points.
 
-Schemes of gap: batch, marginal, default, the paper's with both seams, and, on the first sequence,
-0, 2, 4 and 8 rings with keep, 0, 2 and 8 with cut, lazy, and two rings with all of level II. Frames
-that are verified don't count for times. Always one thread, one run at a time. Writes decoupling.png, decoupling.md and what each part found to --work; sequences that it
-has are used again. Needs python3-numpy and python3-matplotlib. Exits with 1 where the default or
-the batch run fails, with 2 on a wrong call; other failures stand in the tables.
+The schemes of gap are batch, marginal, the default, and the paper's with both boundaries. The first
+sequence also has 0, 2, 4 and 8 rings with keep and 0, 2 and 8 with cut (lazy Level II), and two rings
+with full Level II. Times leave out the frames that are verified. All runs have one thread and follow
+one another. The script writes decoupling.png, decoupling.md and the results of each part to --work, and
+uses the sequences that it finds there again. It needs python3-numpy and python3-matplotlib. It exits
+with 1 if the default or the batch run fails, and with 2 on a wrong call; other failures are listed in
+the tables.
 
   scripts/bench_decoupling.py
   scripts/bench_decoupling.py --quick --work=/tmp/decoupling
   scripts/bench_decoupling.py --only=strip --sizes=1000,3000,10000
-  scripts/bench_decoupling.py --page       # and its figure into scripts/images/
+  scripts/bench_decoupling.py --page       # also writes the figure into scripts/images/
 """
 import argparse
 import json
@@ -58,31 +61,32 @@ def parse_options():
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/apps", metavar="DIR",
                         help="folder of the programs [build/release/apps]")
     parser.add_argument("--work", type=Path, default=ROOT / "build/decoupling", metavar="DIR",
-                        help="sequences, runs, results and the figure [build/decoupling]")
+                        help="folder for sequences, runs, results and the figure [build/decoupling]")
     parser.add_argument("--only", default=",".join(PARTS), metavar="PARTS",
                         help="parts to make, with commas between [strip,paired,gap]")
     parser.add_argument("--sizes", default="1000,3000,10000,30000,50000", metavar="N,...",
-                        help="nodes of the map [1000,3000,10000,30000,50000]")
+                        help="sizes of the map in nodes [1000,3000,10000,30000,50000]")
     parser.add_argument("--speed", type=float, default=0.05, metavar="SHARE",
-                        help="of the view that the camera moves in a frame of strip [0.05: 6 mm]")
+                        help="share of the view that the camera moves in a frame of strip [0.05: 6 mm]")
     parser.add_argument("--nodes_in_view", type=int, default=NODES_IN_VIEW, metavar="N",
                         help=f"flag of ed_slam [{NODES_IN_VIEW}: about 300 PR nodes]")
     parser.add_argument("--beside", type=int, default=10, metavar="N",
-                        help="frames of the other schemes at each size [10]")
+                        help="frames that the other schemes take at each size [10]")
     parser.add_argument("--budget_s", type=float, default=600.0, metavar="S",
-                        help="for each of these runs, and for each run of gap [600]")
+                        help="time limit of each of these runs, and of each run of gap [600]")
     parser.add_argument("--checkpoint_every", type=int, default=50, metavar="N",
                         help="frames between checkpoints of strip [50]")
     parser.add_argument("--gap_nodes", type=int, default=1000, metavar="N",
-                        help="of the strip in gap [1000]")
+                        help="nodes of the strip in gap [1000]")
     parser.add_argument("--scenes", default="strip,heart,kidney,stomach", metavar="NAMES",
-                        help="of gap [strip,heart,kidney,stomach]")
+                        help="sequences of gap [strip,heart,kidney,stomach]")
     parser.add_argument("--verify_every", type=int, default=10, metavar="N",
-                        help="flag of ed_slam in gap; 0 leaves it out [10]")
-    parser.add_argument("--flags", default="", help="more flags of ed_slam, of all runs [none]")
-    parser.add_argument("--fresh", action="store_true", help="simulate again what --work holds")
+                        help="flag of ed_slam in gap; 0 verifies nothing [10]")
+    parser.add_argument("--flags", default="", help="more flags of ed_slam for all runs [none]")
+    parser.add_argument("--fresh", action="store_true",
+                        help="simulate again even if --work has the sequences")
     parser.add_argument("--quick", action="store_true",
-                        help="small maps and few schemes: to see that everything works")
+                        help="small maps and few schemes, to test the script")
     parser.add_argument("--json", metavar="FILE", help="also write all figures and options there")
     add_page_option(parser, PAGE, "the figure into scripts/images/, and tables and command")
     options = parser.parse_args()

@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
-"""Measures what a map takes in memory: by owner, a node and a point, and as the process grows.
+"""Measures how much memory a map takes: by owner, for a node and a point, and as the process grows.
 
-One run of ed_slam along a strip (as bench_decoupling.py makes them: 320 x 240, some 300 nodes in
-view), or on --sequence. Two views of the same:
+It runs ed_slam once, along a strip (as bench_decoupling.py makes them: 320 x 240 pixels, some 300 nodes
+in view) or on --sequence, and gives two views of the same map:
 
-  counted   object `memory` of report.json: bytes of the map by owner, from what its containers have
-            room for; of the nodes with their edges, and of the points, divided by their number
-  resident  growth of the process's own pages (RssAnon) over the nodes of frames.csv, a straight
-            line through what is sampled while it runs: with all that is counted nowhere. A node
-            comes with its points, so it is held against the whole map divided by its nodes
+  counted   The object `memory` of report.json: bytes of the map by owner, by the capacity of its
+            containers. The bytes of the nodes with their edges and of the points are divided by their
+            numbers.
+  resident  The growth of the process's own pages (RssAnon) over the nodes of frames.csv: the slope of a
+            straight line through samples of the run. It includes memory that is counted nowhere. A node
+            comes with its points, so it is compared with the whole map divided by its nodes.
 
---first leaves out the frames in which solvers and libraries still take what they will keep; a run
-over fewer nodes than a few thousand is mostly these. Exits with 1 where the run fails or the map
-takes more than --most_node bytes a node or --most_point a point, with 2 on a wrong call.
+--first leaves out the first frames, in which solvers and libraries allocate memory that they keep; a
+run of less than a few thousand nodes measures mostly these. The script exits with 1 if the run fails
+or the map takes more than --most_node bytes for a node or --most_point bytes for a point, and with 2 on
+a wrong call.
 
   scripts/bench_memory.py
   scripts/bench_memory.py --nodes=50000 --work=/tmp/memory
@@ -41,22 +43,22 @@ def parse_options():
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/apps", metavar="DIR",
                         help="folder of the programs [build/release/apps]")
     parser.add_argument("--work", type=Path, default=ROOT / "build/memory", metavar="DIR",
-                        help="sequences and the run [build/memory]")
-    parser.add_argument("--sequence", type=Path, metavar="DIR", help="run on this one, not a strip")
+                        help="folder for sequences and the run [build/memory]")
+    parser.add_argument("--sequence", type=Path, metavar="DIR", help="use this sequence instead of a strip")
     parser.add_argument("--nodes", type=int, default=3000, metavar="N",
-                        help="of the map at the end of the strip [3000]")
+                        help="nodes of the map at the end of the strip [3000]")
     parser.add_argument("--nodes_in_view", type=int, default=NODES_IN_VIEW, metavar="N",
                         help=f"flag of ed_slam [{NODES_IN_VIEW}]")
     parser.add_argument("--speed", type=float, default=0.05, metavar="SHARE",
-                        help="of the view that the camera moves in a frame [0.05]")
+                        help="share of the view that the camera moves in a frame [0.05]")
     parser.add_argument("--first", type=int, default=50, metavar="N",
-                        help="frame that growth is counted from [50]")
+                        help="frame from which growth is counted [50]")
     parser.add_argument("--most_node", type=float, default=1500.0, metavar="BYTES",
-                        help="a node with its edges [1500]")
+                        help="allowed bytes of a node with its edges [1500]")
     parser.add_argument("--most_point", type=float, default=100.0, metavar="BYTES",
-                        help="a point [100]")
+                        help="allowed bytes of a point [100]")
     parser.add_argument("--flags", default="", help="more flags of ed_slam [none]")
-    parser.add_argument("--fresh", action="store_true", help="simulate again what --work holds")
+    parser.add_argument("--fresh", action="store_true", help="simulate again even if --work has the sequence")
     options = parser.parse_args()
     if not (options.bin / "ed_slam").exists():
         wrong_call(f"{options.bin / 'ed_slam'} is not there; build it or name its folder")

@@ -1,29 +1,29 @@
 #!/usr/bin/env python3
-"""Runs ed_fit on every pair of surfaces and tabulates how well and how fast.
+"""Runs ed_fit on every pair of surfaces and tabulates how accurate and how fast it is.
 
-A pair is a folder with source.ply and target.ply, and gt.ply where the truth is known. Pairs are
-looked for in data/ and in the folder that the environment variable CERES_ED_DATA names. Each pair
-is fitted --runs times; times and memory are medians. With --compare-flags or --compare-bin a second
-variant B runs in turn with the first (A B A B ...), so that both meet the same machine.
+A pair is a folder with source.ply and target.ply, and gt.ply if the truth is known. Pairs are searched
+in data/ and in the folder that the environment variable CERES_ED_DATA names. Each pair is fitted
+--runs times; times and memory are medians. With --compare-flags or --compare-bin a second variant B
+takes turns with the first one (A B A B ...), so both meet the same state of the machine.
 
-Errors are means in percent of the diagonal of the target's bounding box, as ed_eval has them:
-  nothing   source to truth, if nothing is done
-  rigid     what the best rigid motion, found with the truth, leaves (needs python3-numpy)
+Errors are means in percent of the diagonal of the target's bounding box, as ed_eval computes them:
+  nothing   source to truth, before the fit
+  rigid     residual of the best rigid motion, which is found with the truth (needs python3-numpy)
   truth     result to truth, over all source vertices
-  surface   result to target and back, between the surfaces; of a partial target (a pair with a
-            visible.txt) target to result alone
-  trimmed   the same of the nearest 80 %: what is missing in one of both does not spoil it
-  target    target to result alone
-Edge p99 is the change of edge length that 1 % of the edges exceed, flips are flipped triangles; true
-p99 and true flips are what the truth has of them. MB is the most memory that ed_fit had at a time.
-Exits with 1 when a run fails or two runs of one variant differ, with 2 on a wrong call.
+  surface   result to target and back, between the surfaces; for a partial target (a pair with a
+            visible.txt) target to result only
+  trimmed   the same for the nearest 80 %, so that parts which one surface lacks do not count
+  target    target to result only
+Edge p99 is the change of edge length that 1 % of the edges exceed, and flips are flipped triangles;
+true p99 and true flips are those of the truth. MB is the peak memory of ed_fit. The script exits with 1
+when a run fails or two runs of one variant differ, and with 2 on a wrong call.
 
   scripts/bench_pairs.py
   scripts/bench_pairs.py --pairs=dolphin_bend,heart_partial --flags="--mode=two_level --rings=4"
   scripts/bench_pairs.py --compare-flags="--mode=two_level" --csv=build/bench.csv
   scripts/bench_pairs.py --subdivide --pairs=bear_full,bear_full_subdivided
   scripts/bench_pairs.py --compare-bin=../before/build/release/apps
-  scripts/bench_pairs.py --page
+  scripts/bench_pairs.py --page      # then scripts/refresh_pages.sh, for the README
 """
 import argparse
 import csv
@@ -43,19 +43,19 @@ def parse_options():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", default=ROOT / "build/release/apps", metavar="DIR",
                         help="folder of ed_fit and ed_eval [build/release/apps]")
-    parser.add_argument("--flags", default="", help="flags of ed_fit, of both variants [none]")
+    parser.add_argument("--flags", default="", help="flags of ed_fit for both variants [none]")
     parser.add_argument("--runs", type=int, default=3, help="fits of each pair and variant [3]")
     parser.add_argument("--pairs", default="", help="names, with commas between [all]")
     parser.add_argument("--data", action="append", type=Path, metavar="DIR",
                         help="folder of pairs, repeatable [data/ and $CERES_ED_DATA]")
     parser.add_argument("--target", default="target.ply", metavar="FILE",
-                        help="name of the target where a pair has one of this name [target.ply]")
+                        help="file name of the target, for pairs that have it [target.ply]")
     parser.add_argument("--subdivide", nargs="?", const="bear_full", default="", metavar="NAMES",
                         help="also fit these pairs with every triangle cut into four [bear_full]")
-    parser.add_argument("--compare-flags", metavar="FLAGS", help="variant B has these flags, too")
-    parser.add_argument("--compare-bin", metavar="DIR", help="variant B is the ed_fit of this folder")
-    parser.add_argument("--csv", metavar="FILE", help="also write the rows there")
-    parser.add_argument("--json", metavar="FILE", help="also write rows and options there")
+    parser.add_argument("--compare-flags", metavar="FLAGS", help="additional flags of variant B")
+    parser.add_argument("--compare-bin", metavar="DIR", help="variant B is the ed_fit in this folder")
+    parser.add_argument("--csv", metavar="FILE", help="also write the rows to this file")
+    parser.add_argument("--json", metavar="FILE", help="also write rows and options to this file")
     add_page_option(parser, PAGE, "the tables")
     options = parser.parse_args()
     if options.runs < 1:

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Tabulates errors and times of ed_fit and ed_slam against the number of points that they look at.
+"""Tabulates errors and times of ed_fit and ed_slam against the number of points that they use.
 
-Points are thinned evenly: --max_samples of each surface of a pair, --max_observations of the map in
-a frame. Pairs and sequences are those of bench_pairs.py and bench_sequences.py, and so are the
-columns; more points than there are change nothing. Exits with 1 when a run fails or two runs of one
-count differ, with 2 on a wrong call.
+Points are thinned evenly: --max_samples for each surface of a pair, --max_observations for the map in a
+frame. Pairs, sequences and columns are those of bench_pairs.py and bench_sequences.py. A number above
+that of the points changes nothing. The script exits with 1 when a run fails or two runs of one count
+differ, and with 2 on a wrong call.
 
   scripts/bench_points.py
   scripts/bench_points.py --pairs=bear_full --samples=12000,3000 --sequences=heart --runs=3
@@ -42,9 +42,9 @@ def parse_options():
     parser.add_argument("--pairs", default=PAIRS, metavar="NAMES", help=f"[{PAIRS}]")
     parser.add_argument("--sequences", default=SEQUENCES, metavar="NAMES", help=f"[{SEQUENCES}]")
     parser.add_argument("--samples", default="12000,6000,3000,1500", metavar="COUNTS",
-                        help="--max_samples of ed_fit [12000,6000,3000,1500]")
+                        help="values of --max_samples of ed_fit [12000,6000,3000,1500]")
     parser.add_argument("--observations", default="6000,1500,750,375", metavar="COUNTS",
-                        help="--max_observations of ed_slam [6000,1500,750,375]")
+                        help="values of --max_observations of ed_slam [6000,1500,750,375]")
     parser.add_argument("--page", metavar="FILE",
                         help="also put the tables between the marks of this page")
     options = parser.parse_args()

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""What a fit costs from Python, against ed_fit: both in processes of their own, in turn.
+"""Compares the time of a fit in Python with that of ed_fit. Both run in processes of their own, in turn.
 
-  fit    from arrays in memory to arrays: ceres_ed.fit(), and of ed_fit all but reading and writing
-  CPU    the processor's seconds of the same, which other programs disturb less
+  fit    the fit from arrays in memory to arrays: ceres_ed.fit(), and ed_fit without reading and writing
+  CPU    the CPU time of the same, which other programs on the machine disturb less
   again  the second fit of a Python process
-  whole  from the start of the process to its end: interpreter, numpy, reading and writing included
+  whole  from the start of the process to its end, with interpreter, numpy, reading and writing
 
-Medians of --runs on one thread, and their ratios to ed_fit. Both must write the same bytes.
+Figures are medians of --runs on one thread, and their ratios to ed_fit. Both must write the same bytes.
 """
 import argparse
 import json
@@ -89,11 +89,11 @@ def parse_options():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release", metavar="DIR",
-                        help="build folder, of apps/ and python/ [build/release]")
+                        help="build folder with apps/ and python/ [build/release]")
     parser.add_argument("--python", default=sys.executable, help="interpreter [this one]")
     parser.add_argument("--pairs", default="bear_full", metavar="NAMES",
-                        help="of data/ and $CERES_ED_DATA, with commas between [bear_full]")
-    parser.add_argument("--runs", type=int, default=7, help="runs that medians are of [7]")
+                        help="pairs of data/ and $CERES_ED_DATA, with commas between [bear_full]")
+    parser.add_argument("--runs", type=int, default=7, help="number of runs for each median [7]")
     options = parser.parse_args()
     if options.runs < 1:
         parser.error(f"--runs={options.runs}, expected 1 or more")

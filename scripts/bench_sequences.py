@@ -1,38 +1,38 @@
 #!/usr/bin/env python3
-"""Runs ed_slam on every depth sequence and tabulates how well and how fast.
+"""Runs ed_slam on every depth sequence and tabulates how accurate and how fast it is.
 
-Sequences are looked for in the folder that the environment variable CERES_ED_DATA names (a folder
-with camera.txt and depth/, or with depth.txt); heart, kidney, stomach, strip and plane are made by
-ed_simulate, once, into --cache. With --compare-flags or --compare-bin a second variant B runs in
-turn with the first (A B A B ...), so that both meet the same machine. One run at a time.
+Sequences are searched in the folder that the environment variable CERES_ED_DATA names (folders with
+camera.txt and depth/, or with depth.txt). ed_simulate makes heart, kidney, stomach, strip and plane
+once, into --cache. With --compare-flags or --compare-bin a second variant B takes turns with the first
+one (A B A B ...), so both meet the same state of the machine. One run follows another.
 
-  frames   all, and of these: reloc (camera found again), lost, skipped (nothing to see)
-  surface  distance of seen map points to the true surface: median of a frame, median of the frames
-  seen     tracking error: where a map point is against where its tissue point is; mean, in view
-  hidden   the same of points out of view or behind others
-  camera   rms error of the camera's place (camera and tissue may trade motion)
+  frames   number of frames, and of these: reloc (camera found again), lost, skipped (nothing to see)
+  surface  distance of visible map points to the true surface: median of a frame, median of the frames
+  seen     tracking error: distance of a map point to the place of its tissue; mean of points in view
+  hidden   the same for points out of view or behind others
+  camera   rms error of the camera's position (camera and tissue may exchange motion)
   px       median error of the given 2D tracks; tracks: followed / given
   plane    rms distance of inliers to the planes of the depth image, median of the frames
-  static   what a pair of frames leaves where nothing moves, of --static-residual: see below
-  depth    |z - depth| at the pixel, median of a frame, mean of the frames: has all sensor noise
-  ms, p95  time of a frame, t_total of frames.csv: all but reading, decoding and writing
-  cpu      CPU time of the whole program a frame: what is left when the machine is busy elsewhere
+  static   residual of a pair of frames in which nothing moves, for --static-residual: see below
+  depth    |z - depth| at the pixel, median of a frame, mean of the frames; includes the sensor's noise
+  ms, p95  time of a frame, t_total of frames.csv: without reading, decoding and writing
+  cpu      CPU time of the whole program for a frame; for use on a machine that is busy
   observe ... grow   medians of the stages, ms
-  MB       the most memory that ed_slam had at a time
-  nodes, points   of the map in the end; pr: nodes with data, active: moved by Level I (medians)
-Lengths are millimetres. Times are medians over --runs; errors are those of the first run.
+  MB       peak memory of ed_slam
+  nodes, points   of the map at the end; pr: nodes with data, active: moved by Level I (medians)
+Lengths are in millimetres. Times are medians over --runs; errors are those of the first run.
 
---static-residual: the map of frame k alone is laid on frame k + 1 rigidly, by ed_slam with rotation
-and regularization so strong that nothing bends. The median over the quietest fourth of all
-neighbours is what the sensor's noise and the calibration leave (sequence_runs.py says more).
+--static-residual: ed_slam places the map of frame k alone on frame k + 1, with rotation and
+regularization so strong that nothing bends. The median over the quietest quarter of all neighbouring
+frames is what the sensor's noise and the calibration leave (sequence_runs.py explains it).
 
-Exits with 1 when a run fails or two runs of one variant differ, with 2 on a wrong call.
+The script exits with 1 when a run fails or two runs of one variant differ, and with 2 on a wrong call.
 
   scripts/bench_sequences.py
   scripts/bench_sequences.py --sequences=heart,kidney,stomach --compare-flags="--mode=batch"
   scripts/bench_sequences.py --sequences=invivo_heart_40 --runs=3 --json=build/sequences.json
   scripts/bench_sequences.py --compare-bin=../before/build/release/apps
-  scripts/bench_sequences.py --page
+  scripts/bench_sequences.py --page      # then scripts/refresh_pages.sh, for the README
 """
 import argparse
 import json
@@ -76,7 +76,7 @@ def parse_options():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release/apps", metavar="DIR",
                         help="folder of ed_slam, ed_simulate and ed_eval [build/release/apps]")
-    parser.add_argument("--flags", default="", help="flags of ed_slam, of both variants [none]")
+    parser.add_argument("--flags", default="", help="flags of ed_slam for both variants [none]")
     parser.add_argument("--runs", type=int, default=1, help="runs of each variant [1]")
     parser.add_argument("--sequences", default="", help="names, with commas between [all]")
     parser.add_argument("--data", action="append", type=Path, metavar="DIR",
@@ -85,12 +85,14 @@ def parse_options():
                         help="where simulated sequences are kept [build/sequences]")
     parser.add_argument("--simulate-flags", default="", metavar="FLAGS",
                         help="flags of ed_simulate, such as --frames=30 [none]")
-    parser.add_argument("--fresh", action="store_true", help="simulate again what --cache holds")
+    parser.add_argument("--fresh", action="store_true",
+                        help="simulate again even if --cache has the sequences")
     parser.add_argument("--static-residual", default="invivo_heart_40", metavar="NAMES",
                         help="sequences whose static residual is measured [invivo_heart_40]")
-    parser.add_argument("--compare-flags", metavar="FLAGS", help="variant B has these flags, too")
-    parser.add_argument("--compare-bin", metavar="DIR", help="variant B is the ed_slam of this folder")
-    parser.add_argument("--json", metavar="FILE", help="also write rows and options there")
+    parser.add_argument("--compare-flags", metavar="FLAGS", help="additional flags of variant B")
+    parser.add_argument("--compare-bin", metavar="DIR",
+                        help="variant B is the ed_slam in this folder")
+    parser.add_argument("--json", metavar="FILE", help="also write rows and options to this file")
     add_page_option(parser, PAGE, "the table")
     options = parser.parse_args()
     if options.runs < 1:

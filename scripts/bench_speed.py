@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
-"""Measures all times that ceres_ed/solver/README.md tells of, and writes its tables.
+"""Measures all times of ceres_ed/solver/README.md, and writes its tables.
 
-Each section stands between marks of its own in the page; --only measures a few of them:
+Each section has marks of its own in the page; --only measures a few sections:
   fit            stages of ed_fit on pairs, seconds
-  slam           stages of ed_slam on sequences, milliseconds, on one thread and on two
+  slam           stages of ed_slam on sequences, milliseconds, with one thread and with two
   level_one      Level I of 20 x 20 nodes against plain auto-diff Ceres (whole_solve_benchmark)
   factorisation  ordering, factor, solve (block_cholesky_benchmark)
   constraints    one solve for point constraints (point_constraints_benchmark)
 
-With --compare-bin the programs of another build run in turn with these (A B A B ...), as "before".
-All figures are medians of --runs. Pairs and sequences are those of bench_pairs.py and
-bench_sequences.py. Needs a build with benchmarks (-DCERES_ED_BUILD_BENCHMARKS=ON). Exits with 1 when
-a run fails (the page then stays as it is), with 2 on a wrong call.
+With --compare-bin the programs of another build take turns with these (A B A B ...), as "before". All
+figures are medians of --runs. Pairs and sequences are those of bench_pairs.py and bench_sequences.py.
+The script needs a build with benchmarks (-DCERES_ED_BUILD_BENCHMARKS=ON). It exits with 1 when a run
+fails (the page then stays as it is), and with 2 on a wrong call.
 
   scripts/bench_speed.py
   scripts/bench_speed.py --only=fit,slam --compare-bin=../before/build/release/apps
@@ -100,10 +100,10 @@ def parse_options():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--bin", type=Path, default=ROOT / "build/release", metavar="DIR",
-                        help="build folder, of apps/ and test/benchmark/ [build/release]")
+                        help="build folder with apps/ and test/benchmark/ [build/release]")
     parser.add_argument("--compare-bin", type=Path, metavar="DIR",
-                        help="folder of ed_fit and ed_slam as they were before")
-    parser.add_argument("--runs", type=int, default=5, help="runs that medians are of [5]")
+                        help="folder of the ed_fit and ed_slam to compare with")
+    parser.add_argument("--runs", type=int, default=5, help="number of runs for each median [5]")
     parser.add_argument("--only", default=",".join(SECTIONS), metavar="SECTIONS",
                         help="names, with commas between [all]")
     parser.add_argument("--pairs", default=PAIRS, metavar="NAMES", help=f"[{PAIRS}]")

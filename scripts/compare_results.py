@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
-"""Says whether two builds give the same bytes: for a change that must not change a result.
+"""Checks whether two builds give the same bytes, for a change that must not change a result.
 
   scripts/compare_results.py BEFORE AFTER [--data=FOLDER] [--frames=60] [--modes=batch,two_level]
 
-BEFORE and AFTER are folders of the programs. Every pair in data/ and below FOLDER is fitted by both,
-with the default flags and with --mode=two_level and marginal; the fitted PLY, the warp and the graph
-must have the same bytes. A simulated heart, and every sequence below FOLDER, is tracked by both in
-each mode; map, graph, trajectory, tracks and live clouds must have the same bytes, and frames.csv
-must be the same but for its columns of time. Exit code 1 where something differs.
+BEFORE and AFTER are folders of the programs. Both fit every pair in data/ and in FOLDER, with the default
+flags and with --mode=two_level and marginal; the fitted PLY, the warp and the graph must have the same
+bytes. Both track a simulated heart and every sequence in FOLDER in each mode; map, graph, trajectory,
+tracks and live clouds must have the same bytes, and frames.csv must be the same except for its columns
+of time. The script exits with 1 if something differs.
 """
 import argparse
 import csv
@@ -79,7 +79,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("before", type=Path)
     parser.add_argument("after", type=Path)
-    parser.add_argument("--data", type=Path, help="a folder of pairs and sequences beside data/")
+    parser.add_argument("--data", type=Path, help="folder of more pairs and sequences")
     parser.add_argument("--frames", type=int, default=60, help="frames of each sequence")
     parser.add_argument("--only", help="pairs and sequences of these names, with commas between")
     parser.add_argument("--modes", default="batch,two_level,marginal")

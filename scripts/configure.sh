@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Configures a preset with ccache where it is there: configure.sh PRESET [CMAKE OPTION ...]
+# Configures a preset, with ccache if it is installed: configure.sh PRESET [CMAKE OPTION ...]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 preset=${1:?usage: configure.sh PRESET [CMAKE OPTION ...]}
 shift
 launcher=()
-# With paths relative to the sources, what one build folder has compiled serves the others.
+# Paths are relative to the sources, so build folders share compiled objects.
 if command -v ccache >/dev/null; then
   launcher=("-DCMAKE_CXX_COMPILER_LAUNCHER=env;CCACHE_BASEDIR=$PWD;ccache")
 fi

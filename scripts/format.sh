@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Formats every C++ file with clang-format; with --check it changes nothing and fails where it would.
+# Formats every C++ file with clang-format; with --check it changes nothing, and fails if it would change a file.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

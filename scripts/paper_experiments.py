@@ -1,24 +1,24 @@
 #!/usr/bin/env python3
-"""Makes every experiment of the paper: figures and tables, batch against two-level.
+"""Makes every experiment of the paper, figures and tables: batch against two-level.
 
-  a  growing maps: time and nodes a frame against the frame's number, on sequences whose camera
-     circles an organ, so that most of the map comes to lie out of view (paper_time.png); and the
-     ratio of times at their end, medians of the last 20 frames
-  b  accuracy on the same runs: means of map to scan (rms distance of inliers to the planes, and
-     |z - depth| at the pixel), of map points in view to the true surface, and of tracking errors,
-     with what two-level loses against batch in percent
-  c  a plane that is warped under a still camera, which then sees half of it (paper_plane.png);
-     "level I" are the nodes that it moves, seen and hidden the mean distance of points to where
-     their tissue is, by the mask, "to batch" that to where batch has them
-  d  a dolphin bent by handles alone (paper_dolphin.png), distances in percent of its diagonal
+  a  Growing maps: time and nodes of a frame against the number of the frame. The camera circles an organ,
+     so most of the map leaves the view (paper_time.png). The table has the ratio of times at the end,
+     medians of the last 20 frames.
+  b  Accuracy of the same runs, means: map to scan (rms distance of inliers to the planes, and |z - depth|
+     at the pixel), map points in view to the true surface, and tracking errors, with the loss of
+     two-level against batch in percent.
+  c  A plane that is warped under a still camera, which then sees half of it (paper_plane.png). "level I"
+     are the nodes that it moves. Seen and hidden are the mean distances of points to the places of
+     their tissue, by the mask; "to batch" is that to their places in batch.
+  d  A dolphin bent by handles alone (paper_dolphin.png); distances in percent of its diagonal.
 
-Two-level runs as by default (2 rings, keep) in a and b. Writes the pictures, tables.md and
-results.json to --output. Runs one after the other; simulates two sequences at a time before, into
---cache, where the next run finds them. Needs python3-numpy and python3-matplotlib. Exits with 1
-when a run fails, with 2 on a wrong call.
+In a and b two-level runs with its defaults (2 rings, keep). The script writes the pictures, tables.md and
+results.json to --output. Runs follow one another; before them two sequences at a time are simulated
+into --cache, where the next run of the script finds them. It needs python3-numpy and
+python3-matplotlib. It exits with 1 when a run fails, and with 2 on a wrong call.
 
   scripts/paper_experiments.py
-  scripts/paper_experiments.py --page      # and its tables and scripts/images/
+  scripts/paper_experiments.py --page      # also writes the pictures into scripts/images/
   scripts/paper_experiments.py --quick --output=/tmp/paper
 """
 import argparse
@@ -54,17 +54,19 @@ def parse_options():
                         help="folder to write [build/paper]")
     parser.add_argument("--cache", type=Path, default=CACHE, metavar="DIR",
                         help="where simulated sequences are kept [build/sequences]")
-    parser.add_argument("--fresh", action="store_true", help="simulate again what --cache holds")
+    parser.add_argument("--fresh", action="store_true",
+                        help="simulate again even if --cache has the sequences")
     parser.add_argument("--scenes", default="heart,kidney,stomach", metavar="NAMES",
-                        help="of a and b [heart,kidney,stomach]")
-    parser.add_argument("--frames", type=int, default=210, help="of a and b [210: once around]")
+                        help="sequences of a and b [heart,kidney,stomach]")
+    parser.add_argument("--frames", type=int, default=210,
+                        help="frames of a and b [210: once around]")
     parser.add_argument("--size", default="320x240", metavar="WxH",
-                        help="of the pictures of a and b [320x240, those of the paper]")
+                        help="size of the images of a and b [320x240, as in the paper]")
     parser.add_argument("--experiments", default=EXPERIMENTS, metavar="LETTERS",
-                        help="those to make [abcd]; a and b come together")
+                        help="experiments to make [abcd]; a and b come together")
     parser.add_argument("--quick", action="store_true",
-                        help="small pictures, few frames: to see that everything works")
-    parser.add_argument("--flags", default="", help="more flags of ed_slam, of all runs [none]")
+                        help="small images and few frames, to test the script")
+    parser.add_argument("--flags", default="", help="more flags of ed_slam for all runs [none]")
     add_page_option(parser, PAGE, "the pictures into scripts/images/, and the tables")
     options = parser.parse_args()
     options.scenes = [name for name in options.scenes.split(",") if name]

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes scripts/images/fit.png, the picture of README.md, from pairs in data/.
+"""Makes scripts/images/fit.png, the picture of a fit in README.md, from pairs in data/.
 
-Fits each pair with ed_fit's defaults and draws source, target, the result coloured by its distance to the
-truth, and the graph with PR and PI nodes. Needs python3-numpy and python3-matplotlib.
+It fits each pair with the defaults of ed_fit and draws source, target, the result coloured by its distance
+to the truth, and the graph with PR and PI nodes. It needs python3-numpy and python3-matplotlib.
 
   scripts/plot_readme.py
   scripts/plot_readme.py --bin=build/release/apps --output=build/fit.png

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Makes scripts/images/tracking.png, the picture of tracking in README.md, from a simulated heart.
 
-ed_simulate makes the sequence and ed_slam follows it, both with their defaults. Three moments are drawn:
-the colour image (above) and the map (below), each map point with its tracking error: the distance to
-the place where its tissue is at that moment, by the truth. The line is the path of the estimated
-camera up to that moment. Needs python3-numpy and python3-matplotlib.
+ed_simulate makes the sequence and ed_slam tracks it, both with their defaults. Three moments are drawn:
+the colour image (above) and the map (below). The colour of a map point is its tracking error, that is,
+the distance to the true place of its tissue at that moment. The line is the path of the estimated
+camera up to that moment. The script needs python3-numpy and python3-matplotlib.
 
   scripts/plot_tracking.py
   scripts/plot_tracking.py --bin=build/release/apps --output=build/tracking.png

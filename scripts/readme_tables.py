@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Copies columns of the tables of test/benchmark/README.md to the short tables of README.md.
+"""Copies columns of the tables in test/benchmark/README.md to the short tables of README.md.
 
-Writes between the marks `<!-- readme_tables.py: NAME: begin -->` and `... end -->`. With --check it
-writes nothing and exits with 1 where README.md differs.
+It writes between the marks `<!-- readme_tables.py: NAME: begin -->` and `... end -->`. With --check it
+writes nothing, and exits with 1 if README.md differs.
 
   scripts/readme_tables.py
   scripts/readme_tables.py --check
@@ -15,8 +15,8 @@ from bench_tables import PAGE, check_marks, table, write_between
 from program_runs import PROGRAM, ROOT
 
 README = ROOT / "README.md"
-# Of each short table: the first heading of the table that it is taken from, and its columns there with
-# the headings that they get.
+# For each short table: the first heading of the table that it is taken from, and the columns that it takes,
+# with their new headings.
 TABLES = {
     "fits": ("shipped pair", {
         "shipped pair": "pair", "nothing %": "before %", "rigid %": "best rigid %",
@@ -49,7 +49,7 @@ def short_table(page, first_heading, columns):
 def main():
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--check", action="store_true", help="compare only")
+    parser.add_argument("--check", action="store_true", help="compare, and write nothing")
     check = parser.parse_args().check
     page = PAGE.read_text()
     for name, (first_heading, columns) in TABLES.items():

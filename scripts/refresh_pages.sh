@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Brings what pages show up to date: the catalogue of energies, source files that are shown whole, and the
-# short tables of the README.
+# Brings pages up to date: the catalogue of energies, source files that are shown in full, and the short tables
+# of the README.
 # refresh_pages.sh [BUILD FOLDER (build/release)]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

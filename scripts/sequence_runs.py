@@ -159,12 +159,12 @@ def errors_of(evaluation):
 def static_residual(variant, sequence, work):
     """Returns the rms distance to planes, mm, that a pair of frames leaves where nothing moves.
 
-    What noise and calibration leave, and nothing else: the map is made of frame k alone and laid
-    on frame k + 1 by ed_slam itself, with its own planes, inliers and rms, while E_rot and E_reg
-    are so strong that only the camera can move (and no features, so that nothing but the distance
-    to the planes decides). Tissue that moves between the two adds to it, so that of all
-    neighbours the quietest fourth counts: their median. A map of many frames averages its noise,
-    which a pair can't: of still tissue it leaves less than this.
+    It is the residual of noise and calibration alone. ed_slam makes the map from frame k alone and places
+    it on frame k + 1, with its own planes, inliers and rms. E_rot and E_reg are so strong that only the
+    camera can move, and there are no features, so only the distance to the planes counts. Tissue that
+    moves between the two frames adds to the residual; therefore the result is the median over the
+    quietest quarter of all neighbouring frames. A map of many frames averages its noise, which a pair
+    cannot do, so its residual on still tissue is smaller.
     """
     rigid = ["--w_rot=1e6", "--w_reg=1e6", "--features=none", "--live_every=0"]
     frames = sorted(int(path.stem) for path in (sequence.folder / "depth").iterdir())

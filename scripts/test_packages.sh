@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Proves the packages of scripts/package.sh on a bare Debian 12 in a folder of its own: installs them there,
-# runs the demo, and builds and runs the example project with its plugin. As root, for it uses chroot.
+# Tests the packages of scripts/package.sh on a bare Debian 12 in a folder of its own: it installs them there,
+# runs the demo, and builds and runs the example project with its plugin. It needs root because it uses chroot.
 # test_packages.sh [FOLDER (build/packages)]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
