@@ -32,7 +32,7 @@ NOTHING = ""
 
 
 def list_ingredients(program):
-    """Returns {name: what is done without it} in the program's order."""
+    """Returns {name: what the fit does without it} in the order of the program."""
     listed = subprocess.run([program, "--list"], capture_output=True, text=True, check=True)
     return dict(line.split(" ", 1) for line in listed.stdout.splitlines())
 
@@ -63,7 +63,7 @@ def parse_options():
 
 
 def choose_variants(options):
-    """Returns the fit with everything, then those without something, and what that means."""
+    """Returns the fit with all ingredients, then those that lack one, and what each of them means."""
     program = options.bin / "test/benchmark/ablate_fit"
     variants = [Variant(NOTHING, program, [])]
     known = list_ingredients(program)
@@ -96,7 +96,7 @@ def error_cell(row):
 
 
 def table_row(label, rows, first):
-    """`rows` and `first`, those of the fit with everything, are in the order of the pairs."""
+    """Returns a row. `rows`, and `first` (the fit with all ingredients), are in the order of the pairs."""
     both = [(row, with_all) for row, with_all in zip(rows, first) if row and with_all]
     flips = sum(row["flipped"] for row, _ in both)
     seconds = [sum(pair[i]["cpu_s"] for pair in both) for i in range(2)]

@@ -99,7 +99,7 @@ def parse_options():
 
 
 def check(options, parser):
-    """Ends the program on a wrong call; turns lists into lists and settles sizes."""
+    """Ends the program on a wrong call; splits lists and sets sizes."""
     options.only = [name for name in options.only.split(",") if name]
     if not options.only or set(options.only) - set(PARTS):
         parser.error(f"--only={','.join(options.only)}, expected some of {', '.join(PARTS)}")
@@ -169,7 +169,7 @@ def make_gap_part(options):
 
 
 def result_of(options, part):
-    """Makes a part, or returns what an earlier run left of it; and whether it failed."""
+    """Returns the result of a part, made now or read from an earlier run, and whether it failed."""
     path = options.work / f"{part}.json"
     if part in options.only:
         result, failed = {"strip": make_strip_part, "paired": make_paired_part,

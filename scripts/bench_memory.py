@@ -70,7 +70,7 @@ def parse_options():
 
 
 def resident_bytes(pid):
-    """Returns the process's resident memory without files that it has mapped; None when gone."""
+    """Returns the resident memory of a process without mapped files, or None if the process has ended."""
     try:
         lines = Path(f"/proc/{pid}/status").read_text().splitlines()
     except OSError:
@@ -80,7 +80,7 @@ def resident_bytes(pid):
 
 
 def last_frame(path):
-    """Returns number and nodes of the last whole row of a frames.csv that is being written."""
+    """Returns frame number and nodes of the last complete row of a frames.csv that is being written."""
     try:
         with open(path, "rb") as file:
             header = file.readline().decode().strip().split(",")
@@ -97,7 +97,7 @@ def last_frame(path):
 
 
 def run_sampled(command, frames, log):
-    """Runs ed_slam; returns (frame, nodes, bytes) as it went."""
+    """Runs ed_slam; returns samples (frame, nodes, bytes) of the run."""
     samples = []
     with open(log, "wb") as stderr:
         child = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL,
@@ -114,7 +114,7 @@ def run_sampled(command, frames, log):
 
 
 def slope_of(samples):
-    """Returns the slope of bytes over nodes, least squares; None where the map doesn't grow."""
+    """Returns the slope of bytes over nodes by least squares, or None if the map does not grow."""
     nodes = [sample[1] for sample in samples]
     if len(samples) < 3 or max(nodes) - min(nodes) < 100:
         return None

@@ -84,7 +84,7 @@ def save(options, rows):
 
 
 def list_pairs(options, work):
-    """Returns the pairs that are asked for, subdivided ones behind the others."""
+    """Returns the chosen pairs, and after them the subdivided ones."""
     names = [name for name in options.pairs.split(",") if name]
     made = {f"{name}_subdivided": name for name in options.subdivide.split(",") if name}
     originals = find_pairs(options.data, list(made.values())) if made else []

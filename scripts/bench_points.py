@@ -68,7 +68,7 @@ def lines_of(rows, name, heading, columns):
 
 
 def measure(options, work):
-    """Returns the lines of both tables, and whether everything went well."""
+    """Returns the lines of both tables, and whether all runs succeeded."""
     failed, lines = False, []
     fits = variants(options.bin / "ed_fit", "max_samples", options.samples)
     tracks = variants(options.bin / "ed_slam", "max_observations", options.observations)

@@ -49,7 +49,7 @@ def python_fit(options, folder, work, fits):
 
 
 def program_fit(options, folder, work):
-    """Returns the seconds and CPU seconds of ed_fit's fit, and the seconds of all of it."""
+    """Returns the seconds and CPU seconds of the fit in ed_fit, and the seconds of the whole program."""
     report = work / "fit.json"
     wall, cpu, _ = run([options.bin / "apps/ed_fit", folder / "source.ply", folder / "target.ply",
                       f"--output={work / 'program.ply'}", f"--report={report}", "--quiet"],

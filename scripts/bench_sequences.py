@@ -108,7 +108,7 @@ def parse_options():
 
 
 def list_sequences(options):
-    """Returns functions that return a sequence each: simulated ones may have to be made first."""
+    """Returns {name: function that returns the sequence}; the function simulates it if needed."""
     names = [name for name in options.sequences.split(",") if name]
     made = {}
     for scene in SCENES:
@@ -133,7 +133,7 @@ def run_once(variant, sequence, output):
 
 
 def bench_sequence(variants, sequence, options, work):
-    """Runs the variants in turn; returns a row each and whether all runs of each agreed."""
+    """Runs the variants in turn; returns a row for each, and whether all runs of each variant agreed."""
     runs, digests, agreed = {}, {}, True
     for number in range(options.runs):
         for variant in variants:

@@ -1,4 +1,4 @@
-"""Tables on the terminal and in pages, those of bench_pairs.py among them."""
+"""Tables on the terminal and in pages, including those of bench_pairs.py."""
 import csv
 import sys
 from pathlib import Path
@@ -29,7 +29,7 @@ def cell(value, decimals):
 
 
 def ratio_row(a, b, columns=COLUMNS, ratios=RATIOS):
-    """Returns the row of B/A, with the name that stands in the first of `columns`."""
+    """Returns the row of the ratios B/A, with the name from the first of `columns`."""
     name = columns[0][0]
     row = {key: None for key, _, _ in columns}
     row.update({name: a[name], "variant": "B/A"})
@@ -81,7 +81,7 @@ def shipped_row(row):
 def real_row(row, published):
     others = published.get(row["pair"], {})
     errors = [] if row["truth"] is None else [f"truth {row['truth']:.3f}"]
-    # Of a partial target most of the result has no counterpart: no distance both ways then.
+    # Most of the result has no counterpart in a partial target: then there is no distance both ways.
     if row["truth"] is None or any("surface" in text for text in others.values()):
         errors.append(f"surface {row['surface']:.3f}")
     return [row["pair"], cell(row["nothing"], 1), cell(row["rigid"], 1), ", ".join(errors),
@@ -109,7 +109,7 @@ def add_page_option(parser, default, what):
 
 
 def check_marks(path, begin, end):
-    """Ends the program where the file at `path` doesn't have both marks once; returns its text."""
+    """Returns the text of the file at `path`; ends the program unless it has both marks exactly once."""
     page = Path(path).read_text()
     if page.count(begin) != 1 or page.count(end) != 1:
         sys.exit(f"{PROGRAM}: {path} lacks the marks {begin} and {end}")

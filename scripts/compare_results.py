@@ -39,14 +39,14 @@ def track(programs, sequence, mode, frames, out):
 
 
 def without_times(path):
-    """Returns the rows of frames.csv without what a clock says."""
+    """Returns the rows of frames.csv without the columns of time."""
     with open(path, newline="", encoding="utf-8") as file:
         return [{name: value for name, value in row.items() if not name.startswith("t_")}
                 for row in csv.DictReader(file)]
 
 
 def differences(before, after):
-    """Returns the names of files that differ, or that one of the folders lacks."""
+    """Returns the names of files that differ or that one of the folders lacks."""
     names = {str(path.relative_to(folder))
              for folder in (before, after) for path in folder.rglob("*") if path.is_file()}
     differing = []

@@ -1,4 +1,4 @@
-"""What each way to decouple loses against batch, and what time it takes, on whole sequences."""
+"""Loss against batch, and time, of each way to decouple on whole sequences."""
 import shutil
 import statistics
 
@@ -12,7 +12,7 @@ VERIFIED = ("verify_node_mean", "verify_node_max", "verify_camera_deg", "verify_
 
 
 def gap_schemes(quick, with_rings):
-    """Returns the schemes, batch first: the others' times are relative to its."""
+    """Returns the schemes. Batch is the first, because times of the others are relative to it."""
     schemes = [BATCH, MARGINAL, DEFAULT, PAPER_KEEP, PAPER_CUT]
     if with_rings:
         schemes += ring_schemes((0, 2) if quick else (0, 2, 4, 8), "keep", "lazy")
@@ -22,7 +22,7 @@ def gap_schemes(quick, with_rings):
 
 
 def gaps_of(rows):
-    """Returns the mean and the largest gap in percent, and medians of the rest, as far as any."""
+    """Returns the mean and the largest gap in percent, and medians of the others that exist."""
     rows = [row for row in rows if is_verified(row)]
     if not rows:
         return {}
@@ -34,7 +34,7 @@ def gaps_of(rows):
 
 
 def run_scheme(options, scheme, sequence, frames):
-    """Returns one row: times, gaps, errors against the truth, and what kept it from more."""
+    """Returns one row: times, gaps, errors against the truth, and why the run ended early if it did."""
     output = options.work / "gap_run"
     shutil.rmtree(output, ignore_errors=True)
     flags = [f"--live_every={options.live_every}", "--checkpoint_every=0"]
@@ -55,7 +55,7 @@ def run_scheme(options, scheme, sequence, frames):
 
 
 def gaps(options, sequences):
-    """Returns a row a scheme and sequence. Times of each are relative to batch's as `share`."""
+    """Returns a row for each scheme and sequence; `share` is its time relative to batch."""
     rows = []
     for sequence in sequences:
         frames = len(list((sequence.folder / "depth").iterdir()))

@@ -1,4 +1,4 @@
-"""Runs of ed_slam under ways to decouple, from the first frame or from a checkpoint of another run."""
+"""Runs of ed_slam with different ways to decouple, from the first frame or from a checkpoint of another run."""
 import math
 import re
 import shutil
@@ -18,7 +18,7 @@ STOPPED_EARLY = 4
 
 
 def make_strip(options, nodes, flags):
-    """Returns a strip on which a map comes to have `nodes` nodes, and how many frames it has."""
+    """Returns a strip long enough for a map of `nodes` nodes, and the number of its frames."""
     per_view = NODES_OF_VIEW * options.nodes_in_view / NODES_IN_VIEW
     views = max(1.0 + options.speed, SPARE * nodes / per_view)
     frames = math.ceil((views - 1.0) / options.speed) + 1
@@ -29,7 +29,7 @@ def make_strip(options, nodes, flags):
 
 
 class Scheme:
-    """A way to solve: a name for tables, flags of ed_slam, and where it stands in the figure."""
+    """A way to solve: its name in tables, its flags of ed_slam, and its place in the figure."""
 
     def __init__(self, name, mode, rings=None, boundary=None, level2=None):
         self.name = name
@@ -57,7 +57,7 @@ DEFAULT = Scheme("default", None)
 
 
 def ring_schemes(rings, boundary, level2):
-    """Returns two-level schemes of these numbers of rings."""
+    """Returns two-level schemes with these numbers of rings."""
     return [Scheme(f"{count} rings, {boundary}, {level2}", "two_level", count, boundary, level2)
             for count in rings]
 
@@ -68,15 +68,15 @@ def common_flags(options):
 
 
 def reason(error):
-    """Returns what a failed run said, in one line."""
+    """Returns the message of a failed run in one line."""
     line = str(error).strip().splitlines()[-1].strip()
     return re.sub(r"^exit code -?[0-9]+: (ed_slam: )?", "", line).replace("|", "/")
 
 
 def slam(options, scheme, sequence, output, flags, budget_s=None):
-    """Runs ed_slam; returns its rows of frames.csv, and None or why there aren't more of them.
+    """Runs ed_slam; returns the rows of frames.csv, and None or the reason why there are no more rows.
 
-    Past `budget_s` it stops after the frame at hand; one frame that takes far longer is killed.
+    After `budget_s` it stops at the end of the current frame. It is killed if that frame takes far longer.
     """
     variant = Variant(scheme.name, options.bin / "ed_slam", scheme.flags())
     limit = [f"--time_limit_s={budget_s}"] if budget_s else []
@@ -94,13 +94,13 @@ def slam(options, scheme, sequence, output, flags, budget_s=None):
 
 
 def is_verified(row):
-    """Whether a frame was held against batch: what follows may then be slower than it is."""
+    """Whether a frame was compared with batch; the frames after it may then be slower than usual."""
     value = row.get("verify_gap")
     return value is not None and value == value
 
 
 def times(rows):
-    """Returns medians, in milliseconds, of the whole frame and of its stages; None without any."""
+    """Returns medians in milliseconds of the whole frame and of its stages, or None without frames."""
     rows = [row for row in followed(rows) if not is_verified(row)]
     if not rows:
         return None
@@ -113,7 +113,7 @@ def times(rows):
 
 
 class LongRun:
-    """The default scheme along a long strip, in legs that end at checkpoints.
+    """A run of the default scheme along a long strip, in parts that end at checkpoints.
 
     ed_slam writes a checkpoint after every `options.checkpoint_every` frames, so that a leg of a
     multiple of these ends with one.
@@ -128,7 +128,7 @@ class LongRun:
         shutil.rmtree(self.output, ignore_errors=True)
 
     def advance(self, legs):
-        """Goes on by so many times the frames between checkpoints; False when there are no more."""
+        """Continues by so many checkpoints; returns False if there are no more frames."""
         if len(self.rows) >= self.total:
             return False
         every = self.options.checkpoint_every
@@ -145,7 +145,7 @@ class LongRun:
         return int(self.rows[-1]["nodes"]) if self.rows else 0
 
     def frames_until(self, size):
-        """Returns how many more frames the map needs, as it has grown lately; 0 without any yet."""
+        """Returns how many more frames the map needs at its recent growth; 0 before it has grown."""
         if len(self.rows) < 10:
             return 0
         lately = self.rows[-min(200, len(self.rows)):]
@@ -153,7 +153,7 @@ class LongRun:
         return max(0.0, (size - self.nodes()) / max(rate, 0.1))
 
     def approach(self, size):
-        """Goes on to the last checkpoint before the map has `size` nodes; returns its frames."""
+        """Continues to the last checkpoint before the map has `size` nodes; returns its frames."""
         if not self.rows:
             self.advance(1)
         # A little less than what is foreseen; what is left is foreseen anew.
@@ -163,7 +163,7 @@ class LongRun:
                 return len(self.rows) if self.nodes() < size else 0
 
     def reach(self, size):
-        """Goes on until the map has `size` nodes; returns the frame's index, None at the end."""
+        """Continues until the map has `size` nodes; returns the frame's index, or None at the end."""
         while self.nodes() < size:
             if not self.advance(1):
                 return None
@@ -171,7 +171,7 @@ class LongRun:
 
 
 def beside(options, scheme, long_run, begin, index, checkpoint):
-    """Runs a scheme on the frames from a checkpoint of the default one on; returns its figures.
+    """Runs a scheme on the frames after a checkpoint of the default run; returns its figures.
 
     `checkpoint` is a copy of that run's folder after `begin` frames; with none, of a small map, the
     scheme starts with the first frame and goes on to frame `index`.
@@ -195,7 +195,7 @@ def beside(options, scheme, long_run, begin, index, checkpoint):
 
 
 def growth(options, sequence, total_frames, schemes):
-    """Returns a record a size: times of the default scheme up to it, and of others beside it."""
+    """Returns a record for each size: times of the default scheme up to it, and of the other schemes at it."""
     long_run = LongRun(options, sequence, total_frames)
     records = []
     for size in options.sizes:

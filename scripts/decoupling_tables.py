@@ -22,7 +22,7 @@ def default_curve(records):
 
 
 def slope(nodes, ms):
-    """Returns the slope of log time over log nodes by least squares; None with one size alone."""
+    """Returns the slope of log time over log nodes by least squares, or None for a single size."""
     if len(nodes) < 2:
         return None
     x = [math.log(value) for value in nodes]
@@ -33,7 +33,7 @@ def slope(nodes, ms):
 
 
 def beside_curve(records, scheme):
-    """Returns nodes and milliseconds of another scheme where it got so far."""
+    """Returns nodes and milliseconds of another scheme at the sizes that it reached."""
     found = [one["times"] for record in records for one in record["beside"]
              if one["scheme"] == scheme and one["times"]]
     return [one["nodes"] for one in found], [one["ms"] for one in found]
@@ -45,7 +45,7 @@ def beside_names(records):
 
 
 def beside_cell(record, scheme, notes):
-    """Returns the time of a scheme beside the default one; what kept it from more goes to `notes`."""
+    """Returns the time of a scheme beside the default; adds reasons for missing frames to `notes`."""
     one = next((one for one in record["beside"] if one["scheme"] == scheme), None)
     if one is None:
         return "not tried"
@@ -119,7 +119,7 @@ def gap_lines(rows):
 
 
 def draw_trade(axes, rows):
-    """Accuracy lost against time saved, on the sequence that has every scheme: the first one."""
+    """Draws lost accuracy against saved time on the first sequence, which has every scheme."""
     sequence = rows[0]["sequence"]
     for row in rows:
         name, gap, share = row["scheme"], row.get("gap"), row.get("share")
@@ -148,7 +148,7 @@ def draw_trade(axes, rows):
 
 
 def draw_growth(axes, records):
-    """Time of a frame against the nodes of the map."""
+    """Draws the time of a frame against the nodes of the map."""
     for name, (nodes, ms) in {"default": default_curve(records),
                               **{name: beside_curve(records, name)
                                  for name in beside_names(records)}}.items():

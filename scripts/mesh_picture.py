@@ -22,7 +22,7 @@ SUPERSAMPLING = 3
 
 
 class View:
-    """A perspective camera around z that takes in all of some points."""
+    """A perspective camera that turns around z and sees all given points."""
 
     def __init__(self, points, azimuth, elevation, pixels):
         azimuth, elevation = np.radians([azimuth, elevation])
@@ -64,7 +64,7 @@ def vertex_normals(points, triangles):
 
 
 def shade(normals, colors):
-    """Lambert, a lamp over the left shoulder and one at the camera; both sides of a surface lit."""
+    """Returns colours by Lambert's law: lamps over the left shoulder and at the camera, both sides lit."""
     normals = np.where(normals[:, 2:] < 0.0, -normals, normals)
     lamp = np.array([-0.45, 0.55, 0.70]) / np.linalg.norm([-0.45, 0.55, 0.70])
     light = 0.42 + 0.40 * np.clip(normals @ lamp, 0.0, 1.0) + 0.22 * normals[:, 2]

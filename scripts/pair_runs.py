@@ -1,4 +1,4 @@
-"""Pairs of surfaces, programs that fit them, and what comes of it: for bench and ablation."""
+"""Pairs of surfaces, and runs of programs that fit them, for benchmark and ablation."""
 import filecmp
 import json
 import statistics
@@ -23,7 +23,7 @@ class Pair:
         self._before = None
 
     def before(self, ed_eval, work):
-        """Returns what doesn't depend on a fit; each None where there is no truth."""
+        """Returns the figures that do not depend on a fit; each is None if there is no truth."""
         if self._before is None and self.truth:
             nothing = evaluate(ed_eval, self.source, self, work)
             truth = evaluate(ed_eval, self.truth, self, work)["shape"]
@@ -36,7 +36,7 @@ class Pair:
 
 
 def find_pairs(folders, names, target="target.ply"):
-    """Returns the pairs in `folders`; those of `names` alone where there are any."""
+    """Returns the pairs in `folders`, or only those of `names` if there are any names."""
     pairs = []
     for folder in folders:
         if not folder.is_dir():
@@ -89,7 +89,7 @@ def evaluate(ed_eval, result, pair, work):
 
 
 def rigid_error(pair, diagonal):
-    """Returns what the best rigid motion leaves, percent; None without truth or numpy."""
+    """Returns the residual of the best rigid motion in percent, or None without truth or numpy."""
     try:
         import numpy as np
         import ply

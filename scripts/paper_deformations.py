@@ -1,4 +1,4 @@
-"""Experiments of the paper in one step: the plane under a still camera, the handle-bent dolphin."""
+"""Experiments of the paper on a plane under a still camera and on a dolphin bent by handles."""
 import json
 
 from mesh_picture import (BLUE, GRAY, PI_COLOR, PR_COLOR, SUPERSAMPLING, View, draw_graph, render,
@@ -47,7 +47,7 @@ def show(axes, image, panel, caption):
 
 
 def panels(count, columns, panel):
-    """Returns a figure with so many panels, room for a legend below."""
+    """Returns a figure with this many panels and space for a legend below."""
     rows = -(-count // columns)
     dpi, margin = 100, 26
     height = rows * panel[1] + margin
@@ -81,10 +81,10 @@ def true_plane(sequence, frame):
 
 
 def plane_errors(sequence, vertex, last):
-    """Returns mean tracking errors, mm, of what the mask of the frame shows and of what it hides.
+    """Returns mean tracking errors in mm of the points that the mask shows and of those that it hides.
 
     The sheet is a graph over x and y at rest: the truth of a point is interpolated there. What
-    ed_eval calls seen is all that is in the picture, masked or not.
+    ed_eval calls seen is everything inside the picture, masked or not.
     """
     rest, triangles = true_plane(sequence, 0)
     now, _ = true_plane(sequence, last)

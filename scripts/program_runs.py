@@ -1,4 +1,4 @@
-"""Programs that are run and measured: what bench, ablation and experiments share."""
+"""Runs and measures programs, for benchmarks, ablation and experiments."""
 import multiprocessing
 import os
 import shlex
@@ -22,7 +22,7 @@ def wrong_call(message):
 
 
 def apart(function, *arguments):
-    """Returns what `function` returns, from a process of its own.
+    """Returns the result of `function`, called in a process of its own.
 
     A program's peak memory, as the kernel counts it, is at least that of the process that starts
     it: large arrays in this one would show in every figure that follows.
@@ -43,7 +43,7 @@ class Variant:
 
 
 def names(text):
-    """Returns what a list has between its commas."""
+    """Returns the entries of a list with commas."""
     return [name for name in text.split(",") if name]
 
 

@@ -1,4 +1,4 @@
-"""Depth sequences, runs of ed_slam on them, and what comes of it: for bench and experiments."""
+"""Depth sequences and runs of ed_slam on them, for benchmarks and experiments."""
 import csv
 import hashlib
 import json
@@ -28,7 +28,7 @@ class Sequence:
 
 
 def is_sequence(folder):
-    """Whether there are three depth images at least: two are a pair."""
+    """Whether there are at least three depth images; two are a pair."""
     if (folder / "depth.txt").exists():
         return True
     images = folder / "depth"
@@ -44,9 +44,9 @@ def find_sequences(folders):
 
 
 def simulate(ed_simulate, scene, flags, cache, fresh=False):
-    """Returns a simulated sequence; one that `cache` holds already with the same flags is kept.
+    """Returns a simulated sequence, or the one in `cache` if it was made with the same flags.
 
-    With `fresh` it is made again: ed_simulate may have changed.
+    With `fresh` it is always made again, because ed_simulate may have changed.
     """
     words = [scene, *flags]
     name = "_".join([scene, *(flag.lstrip("-").replace("=", "") for flag in flags)])
@@ -63,7 +63,7 @@ def simulate(ed_simulate, scene, flags, cache, fresh=False):
 
 
 def read_frames(output):
-    """Returns the rows of frames.csv: status as it is, all else numbers, NaN where none stands."""
+    """Returns the rows of frames.csv: status is text, everything else a number, NaN where it is empty."""
     with open(output / "frames.csv", newline="") as file:
         return [{key: value if key == "status" else float(value or "nan")
                  for key, value in row.items()}
@@ -71,7 +71,7 @@ def read_frames(output):
 
 
 def digest(output):
-    """Returns a hash of all that a second run must repeat: everything but times."""
+    """Returns a hash of everything that a second run must repeat, that is, all except times."""
     sha = hashlib.sha256()
     for row in read_frames(output):
         sha.update(repr([row[key] for key in sorted(row) if not key.startswith("t_")]).encode())
@@ -99,13 +99,13 @@ def evaluate(ed_eval, sequence, output):
 
 
 def percentile(values, share):
-    """Returns the value that `share` of all don't exceed (nearest rank)."""
+    """Returns the value that `share` of all values do not exceed (nearest rank)."""
     ordered = sorted(values)
     return ordered[min(len(ordered) - 1, max(0, -int(-share * len(ordered) // 1) - 1))]
 
 
 def followed(frames):
-    """The frames that ended with the map followed: those whose times and residuals count."""
+    """Returns the tracked frames, whose times and residuals count."""
     return [row for row in frames if row["status"] in FOLLOWED]
 
 
@@ -135,7 +135,7 @@ def counts_of(frames):
 
 
 def errors_of(evaluation):
-    """Returns what ed_eval says, millimetres and pixels; what it couldn't measure is left out."""
+    """Returns the errors by ed_eval in millimetres and pixels, without those that it could not measure."""
     figures = {}
     if evaluation["truth"]:
         summary = evaluation["truth"]["summary"]

@@ -1,4 +1,4 @@
-"""What bench_speed.py measures: stages of the programs, and benchmarks of the solver."""
+"""Measurements of bench_speed.py: stages of the programs, and benchmarks of the solver."""
 import json
 import statistics
 
@@ -10,7 +10,7 @@ FIT_STAGES = ("total", "load", "rigid", "prepare", "graph", "associate", "build"
 
 
 def median_of(runs):
-    """Returns the median of each figure over the runs, which all have the same."""
+    """Returns the median of each figure over the runs, which all have the same figures."""
     return {key: statistics.median(one[key] for one in runs) for key in runs[0]}
 
 
