@@ -1,10 +1,12 @@
 #include "ceres_ed/geometry/noise_estimate.h"
 
 #include <ceres_ed/geometry/kd_tree.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -64,12 +66,6 @@ PatchFit FitQuadric(const std::vector<Eigen::Vector3d>& points,
   const Basis fitted = lhs.ldlt().solve(rhs);
   const double left = sum_squares - fitted.dot(rhs);
   return {std::max(0.0, left) * scale * scale / (count - kCoefficients), scale};
-}
-
-double Median(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<long>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
 }
 
 // The median of a chi-square variable per degree of freedom (Wilson and Hilferty).
@@ -144,10 +140,12 @@ Estimate EstimateWith(const std::vector<Eigen::Vector3d>& points,
     spreads.push_back(fit.spread);
   }
   if (spreads.empty()) return {};
-  const double v_small = Median(&small_variances) / ChiSquareMedian(small - kCoefficients);
-  const double v_large = Median(&large_variances) / ChiSquareMedian(large - kCoefficients);
+  const double v_small =
+      Median(std::move(small_variances)) / ChiSquareMedian(small - kCoefficients);
+  const double v_large =
+      Median(std::move(large_variances)) / ChiSquareMedian(large - kCoefficients);
   const double variance = (kShapeGrowth * v_small - v_large) / (kShapeGrowth - 1.0);
-  return {std::sqrt(std::max(0.0, variance)), Median(&spreads)};
+  return {std::sqrt(std::max(0.0, variance)), Median(std::move(spreads))};
 }
 
 }  // namespace

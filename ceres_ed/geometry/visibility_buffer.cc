@@ -1,11 +1,13 @@
 #include "ceres_ed/geometry/visibility_buffer.h"
 
 #include <ceres_ed/geometry/kd_tree.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace ceres_ed {
 namespace {
@@ -31,10 +33,7 @@ double MedianSpacing(const std::vector<Eigen::Vector3d>& points) {
     if (tree.KNearest(points[i], 2, nearest.data()) < 2) continue;
     spacings.push_back(std::sqrt(nearest[1].squared_distance));
   }
-  if (spacings.empty()) return 0.0;
-  const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
-  std::nth_element(spacings.begin(), middle, spacings.end());
-  return *middle;
+  return Median(std::move(spacings));
 }
 
 }  // namespace

@@ -2,18 +2,17 @@
 
 #include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/util/parallel.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include <glog/logging.h>
 
 namespace ceres_ed {
 namespace {
-
-// 1.4826 median |x| estimates sigma of a Gaussian.
-constexpr double kMadToSigma = 1.4826;
 
 // A pair before it is believed.
 struct Candidate {
@@ -186,10 +185,7 @@ double MedianDistance(const std::vector<Candidate>& candidates) {
   for (const Candidate& candidate : candidates) {
     if (candidate.IsPlausible()) distances.push_back(candidate.distance);
   }
-  if (distances.empty()) return 0.0;
-  const auto middle = distances.begin() + static_cast<long>(distances.size() / 2);
-  std::nth_element(distances.begin(), middle, distances.end());
-  return *middle;
+  return Median(std::move(distances));
 }
 
 // The candidates of the source's samples, then those of the target's; `details`, one each, may be
@@ -250,7 +246,7 @@ Matches MatchBothWays(const MovedSource& source,
   const std::vector<Candidate> candidates = FindCandidates(
       source, target, target_samples, options, memory, options.with_details ? &details : nullptr);
   Matches matches;
-  matches.robust_distance = kMadToSigma * MedianDistance(candidates);
+  matches.robust_distance = kDeviationPerMedian * MedianDistance(candidates);
   const double limit =
       std::max(options.resolution, options.max_deviations * matches.robust_distance);
   double sum_plane = 0.0;

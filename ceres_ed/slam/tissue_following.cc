@@ -1,6 +1,7 @@
 // What a frame does to the map once the camera is found: Level I and II, fusion, growth.
 #include <ceres_ed/slam/frame/association.h>
 #include <ceres_ed/slam/tracker.h>
+#include <ceres_ed/util/statistics.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -54,7 +55,7 @@ double Tracker::FeatureDeviation() const {
   for (const PointMatch& m : features_.Matches(map_)) {
     distances.push_back((pose * m.in_map - m.in_camera).norm());
   }
-  return MedianDeviation(std::move(distances));
+  return RobustDeviation(std::move(distances));
 }
 
 // Nodes that are recalled elsewhere than they were have reason to move.

@@ -1,5 +1,6 @@
 // ed_fit --covariance: a standard deviation for each vertex, in the source's unit.
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -60,11 +61,6 @@ class EdFitCovarianceTest : public ::testing::Test {
 
   TemporaryDirectory dir_;
 };
-
-double Median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + values.size() / 2, values.end());
-  return values[values.size() / 2];
-}
 
 TEST_F(EdFitCovarianceTest, IsLargerWhereTheTargetShowsNothing) {
   const std::vector<double> deviations = Deviations(Shipped("source.ply"), Shipped("target.ply"));

@@ -119,11 +119,5 @@ TEST(Associate, WeighsGrazingPatchesLessButNeverNothing) {
   }
 }
 
-TEST(MedianDeviation, IsThatOfAGaussianForItsMedian) {
-  EXPECT_EQ(MedianDeviation({}), 0.0);
-  EXPECT_DOUBLE_EQ(MedianDeviation({-2.0}), 2.9652);
-  EXPECT_DOUBLE_EQ(MedianDeviation({5.0, -1.0, 0.5}), 1.4826);
-}
-
 }  // namespace
 }  // namespace ceres_ed

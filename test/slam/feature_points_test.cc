@@ -1,8 +1,8 @@
 #include "ceres_ed/slam/frame/feature_points.h"
 
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/util/statistics.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -40,8 +40,8 @@ double MedianError(const FeaturePoints& features,
   for (const PointMatch& m : features.Matches(map)) {
     errors.push_back((map.state().camera_from_map * m.in_map + slide - m.in_camera).norm());
   }
-  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
-  return errors[errors.size() / 2];
+  EXPECT_FALSE(errors.empty());
+  return Median(errors);
 }
 
 // A textured sheet that slides along itself, which its depth doesn't show.

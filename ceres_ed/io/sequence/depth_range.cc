@@ -1,9 +1,11 @@
 #include "ceres_ed/io/sequence/depth_sequence.h"
 
+#include <ceres_ed/util/statistics.h>
+
 #include <algorithm>
-#include <cstddef>
 #include <iterator>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 namespace ceres_ed {
@@ -18,9 +20,7 @@ std::string DepthRangeWarning(const DepthImage& depth, double depth_units_per_me
         return value > 0.0F;
       });
   if (measured.empty()) return "";
-  const auto middle = measured.begin() + static_cast<std::ptrdiff_t>(measured.size() / 2);
-  std::nth_element(measured.begin(), middle, measured.end());
-  const float median = *middle;
+  const float median = Median(std::move(measured));
   if (median >= kNearest && median <= kFarthest) return "";
   std::ostringstream sentence;
   sentence << "the scene is " << median << " m away, "

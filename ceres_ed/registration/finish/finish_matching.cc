@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/finish/finish_matching.h"
 
 #include <ceres_ed/geometry/closest_point.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -9,16 +10,8 @@
 namespace ceres_ed {
 namespace {
 
-constexpr double kMadToSigma = 1.4826;
 // More target points than this multiple of the vertices say nothing new.
 constexpr int kSamplesPerVertex = 2;
-
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 // How far the surface of which a triangle is a facet lies from the point `blend` of it: with the
 // normals of its corners, to second order (half of what Phong tessellation adds; Boubekeur and
@@ -153,9 +146,9 @@ std::vector<FinishPair> FinishMatcher::Match(const std::vector<Eigen::Vector3d>&
     distances.push_back(candidate.distance);
     planes.push_back(candidate.plane);
   }
-  const double limit =
-      std::max(options_.resolution, options_.max_deviations * kMadToSigma * Median(distances));
-  robust_plane_distance_ = kMadToSigma * Median(std::move(planes));
+  const double limit = std::max(options_.resolution,
+                                options_.max_deviations * kDeviationPerMedian * Median(distances));
+  robust_plane_distance_ = kDeviationPerMedian * Median(std::move(planes));
   const double width = std::max(options_.resolution, loss_width * robust_plane_distance_);
   const double backward_weight =
       0.5 * static_cast<double>(points.size()) / std::max<std::size_t>(1, target_samples_.size());

@@ -1,11 +1,13 @@
 #include "ceres_ed/registration/rigid/coarse_surface.h"
 
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include <Eigen/Geometry>
 #include <glog/logging.h>
@@ -81,9 +83,7 @@ double MedianNormalTurn(const Surface& surface) {
     }
   }
   if (cosines.empty()) return 0.0;
-  const auto middle = cosines.begin() + static_cast<long>(cosines.size() / 2);
-  std::nth_element(cosines.begin(), middle, cosines.end());
-  return std::acos(std::clamp(*middle, -1.0, 1.0));
+  return std::acos(std::clamp(Median(std::move(cosines)), -1.0, 1.0));
 }
 
 CoarseSurface::CoarseSurface(const Surface& surface, double spacing, int passes) : tree_(points_) {

@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/rigid/rigid_aligner.h"
 
 #include <ceres_ed/util/parallel.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
@@ -251,9 +252,8 @@ Similarity RigidAligner::Refine(Similarity pose, int iterations) const {
       if (pair.IsUsable()) squared.push_back(pair.squared_distance);
     }
     if (squared.empty()) return pose;
-    const auto middle = squared.begin() + static_cast<long>(squared.size() / 2);
-    std::nth_element(squared.begin(), middle, squared.end());
-    const double sigma = std::max(floor, 2.0 * 1.4826 * std::sqrt(*middle));
+    const double distance = std::sqrt(Median(std::move(squared)));
+    const double sigma = std::max(floor, 2.0 * kDeviationPerMedian * distance);
     const Similarity before = pose;
     if (!Step(pairs, sigma, &pose)) return before;
     const Similarity change = pose * before.Inverse();

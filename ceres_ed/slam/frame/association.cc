@@ -1,17 +1,12 @@
 #include "ceres_ed/slam/frame/association.h"
 
+#include <ceres_ed/util/statistics.h>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ceres_ed {
-
-double MedianDeviation(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  for (double& value : values) value = std::abs(value);
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return 1.4826 * *middle;
-}
 
 AssociationResult Associate(const std::vector<VisiblePoint>& points,
                             const CameraPose& camera_from_map,
@@ -42,7 +37,7 @@ AssociationResult Associate(const std::vector<VisiblePoint>& points,
     result.matches.push_back(match);
     distances.push_back(match.distance);
   }
-  result.deviation = MedianDeviation(std::move(distances));
+  result.deviation = RobustDeviation(std::move(distances));
   return result;
 }
 

@@ -37,7 +37,7 @@ struct AssociationResult {
   std::vector<int> seen_through;
   // Visible points with any patch at their pixel.
   int measured = 0;
-  // 1.4826 times the median of the matches' |distance|: their spread if it were Gaussian.
+  // The RobustDeviation() of the matches' distances.
   double deviation = 0.0;
 };
 
@@ -46,9 +46,6 @@ AssociationResult Associate(const std::vector<VisiblePoint>& points,
                             const CameraPose& camera_from_map,
                             const ObservedSurface& surface,
                             const AssociationOptions& options);
-
-// 1.4826 times the median of |values|; 0 for none.
-double MedianDeviation(std::vector<double> values);
 
 }  // namespace ceres_ed
 

@@ -1,5 +1,7 @@
 #include "ceres_ed/slam/frame/camera_tracker.h"
 
+#include <ceres_ed/util/statistics.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -109,7 +111,7 @@ void AddPointMatches(const std::vector<PointMatch>& matches,
   for (const PointMatch& m : matches) {
     distances.push_back((pose * m.in_map - m.in_camera).norm());
   }
-  const double deviation = std::max(MedianDeviation(distances), least_deviation);
+  const double deviation = std::max(RobustDeviation(distances), least_deviation);
   for (std::size_t k = 0; k < matches.size(); ++k) {
     const double robust = weight * TukeyWeight(distances[k], deviation);
     if (robust == 0.0) continue;

@@ -1,9 +1,11 @@
 #include "ceres_ed/slam/frame/feature_points.h"
 
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ceres_ed {
 namespace {
@@ -87,7 +89,7 @@ double FeaturePoints::DropOutliers(const DeformableMap& map, double least_deviat
   for (const PointMatch& m : Matches(map)) {
     distances.push_back((map.state().camera_from_map * m.in_map - m.in_camera).norm());
   }
-  const double deviation = std::max(MedianDeviation(distances), least_deviation);
+  const double deviation = std::max(RobustDeviation(distances), least_deviation);
   std::vector<Feature> kept;
   for (std::size_t k = 0; k < features_.size(); ++k) {
     if (distances[k] <= options_.max_deviations * deviation) kept.push_back(features_[k]);

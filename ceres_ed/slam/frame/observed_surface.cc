@@ -2,9 +2,11 @@
 
 #include <ceres_ed/slam/frame/window_sums.h>
 #include <ceres_ed/util/parallel.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -27,10 +29,7 @@ double MedianOfDeviations(const std::vector<SurfacePatch>& patches, int step) {
     skip = step - 1;
     deviations.push_back(patch.deviation);
   }
-  if (deviations.empty()) return 0.0;
-  const auto middle = deviations.begin() + static_cast<std::ptrdiff_t>(deviations.size() / 2);
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  return *middle;
+  return Median(std::move(deviations));
 }
 
 // Makes patches of sums over windows.

@@ -1,0 +1,36 @@
+// Medians, and the deviations that they estimate.
+#ifndef CERES_ED_UTIL_STATISTICS_H_
+#define CERES_ED_UTIL_STATISTICS_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace ceres_ed {
+
+// The standard deviation of a Gaussian variable of mean 0 is this times the median of its absolute
+// value.
+inline constexpr double kDeviationPerMedian = 1.4826;
+
+// Returns the median, or T() if there are no values. The median of an even number of values is the
+// upper one of the two in the middle.
+template <typename T>
+T Median(std::vector<T> values) {
+  if (values.empty()) return T();
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+// Returns an estimate of the standard deviation of values that scatter around 0, which outliers
+// hardly change: 1.4826 times the median of the absolute values; 0 if there are no values.
+inline double RobustDeviation(std::vector<double> values) {
+  for (double& value : values) value = std::abs(value);
+  return kDeviationPerMedian * Median(std::move(values));
+}
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_UTIL_STATISTICS_H_
