@@ -25,4 +25,10 @@ void RegisterBuiltinEnergies(EnergyRegistry* registry) {
   }
 }
 
+EnergyRegistry BuiltinEnergies() {
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  return registry;
+}
+
 }  // namespace ceres_ed

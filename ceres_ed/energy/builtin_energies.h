@@ -6,7 +6,10 @@
 
 namespace ceres_ed {
 
-// Adds the energies of catalogue/: CHECK-fails when one of their names is taken. Call it first.
+// Returns a registry that has the energies of catalogue/.
+EnergyRegistry BuiltinEnergies();
+
+// Adds them to a registry: CHECK-fails when one of their names is taken. Call it first.
 void RegisterBuiltinEnergies(EnergyRegistry* registry);
 
 }  // namespace ceres_ed

@@ -119,8 +119,7 @@ std::vector<EnergySpec> ToEnergies(const py::object& energies) {
 }
 
 EnergyRegistry MakeRegistry(const py::object& plugins) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  EnergyRegistry registry = BuiltinEnergies();
   if (plugins.is_none()) return registry;
   const bool is_sequence = py::isinstance<py::list>(plugins) || py::isinstance<py::tuple>(plugins);
   const py::list paths = is_sequence ? py::list(plugins) : py::list(py::make_tuple(plugins));

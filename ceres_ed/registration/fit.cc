@@ -332,9 +332,7 @@ StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target) {
   FitInput input;
   input.source = source;
   input.target = target;
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
-  return Fit(input, {}, registry);
+  return Fit(input, {}, BuiltinEnergies());
 }
 
 SurfaceFitter::SurfaceFitter(PointCloud source,

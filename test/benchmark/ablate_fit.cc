@@ -150,8 +150,7 @@ int Run(const std::vector<std::string>& arguments) {
   FitInput input;
   input.source = source->cloud;
   input.target = target->cloud;
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   const StatusOr<FitResult> fit = Fit(input, options, registry);
   if (!fit.ok()) return Fail(kBadInput, fit.status().message());
   if (!fit->IsUsable()) return Fail(kNoResult, fit->message);

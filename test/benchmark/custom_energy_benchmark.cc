@@ -70,8 +70,7 @@ void Step(benchmark::State& state, const char* replaced) {
   options.has_camera = true;
   options.target_deviation = 0.05;
   const TestProblem problem = MakeTestProblem(options);
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   ProblemBuilder builder(problem.graph, /*has_camera=*/true);
   std::vector<std::unique_ptr<EnergyTerm>> terms;
   for (const std::string name :
@@ -112,8 +111,7 @@ void Term(benchmark::State& state, const char* name, bool custom) {
   options.has_camera = true;
   options.target_deviation = 0.05;
   const TestProblem problem = MakeTestProblem(options);
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   const std::unique_ptr<EnergyTerm> term = custom ? MakeCustom(name) : *registry.Create(name, {});
   ProblemBuilder builder(problem.graph, /*has_camera=*/true);
   builder.AddTerm(name, term->kind(), 1.0);

@@ -93,8 +93,7 @@ ConstraintProblem MakeProblem(int columns, int rows) {
 
 void PointConstraints(benchmark::State& state, LinearSolver linear_solver) {
   const ConstraintProblem problem = MakeProblem(state.range(0), state.range(1));
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   EnergyContext context;
   context.graph = &problem.graph;
   context.points = &problem.points;

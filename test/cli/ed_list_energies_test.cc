@@ -20,8 +20,7 @@ TEST(EdListEnergies, NamesEveryBuiltinEnergyAndItsParameters) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err, "");
   const std::vector<std::string> lines = SplitLines(result.out);
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   ASSERT_FALSE(registry.List().empty());
   for (const EnergyInfo* energy : registry.List()) {
     EXPECT_THAT(lines, Contains(StartsWith(energy->name + " (")));

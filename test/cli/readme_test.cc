@@ -48,8 +48,7 @@ std::string ParameterCell(const EnergyInfo& energy) {
 
 // The table of energies as the page must have it.
 std::string EnergyTable() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   std::string table =
       "| energy | kind | what it wants | residual | unit | parameters "
       "|\n|---|---|---|---|---|---|\n";
@@ -75,8 +74,7 @@ TEST(EnergyPage, ListsTheEnergiesAsTheRegistryHasThem) {
 }
 
 TEST(EnergyPage, HasTheCatalogueOfTheRegistry) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   EXPECT_THAT(ReadSourceFile("ceres_ed/energy/README.md"),
               HasSubstr("<!-- ed_list_energies: begin -->\n" + ListEnergiesAsMarkdown(registry) +
                         "<!-- ed_list_energies: end -->\n"))

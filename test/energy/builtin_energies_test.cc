@@ -19,15 +19,9 @@ namespace {
 
 using ::testing::IsEmpty;
 
-EnergyRegistry Registry() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
-  return registry;
-}
-
 std::unique_ptr<EnergyTerm> Create(const std::string& name,
                                    const std::map<std::string, double>& parameters = {}) {
-  return *Registry().Create(name, parameters);
+  return *BuiltinEnergies().Create(name, parameters);
 }
 
 CameraPose ExampleMotion() {
@@ -73,7 +67,7 @@ EnergyInvariance TradeOfNodesAndCamera() {
 }
 
 std::vector<std::string> Check(const std::string& name, const EnergyClaims& claims = {}) {
-  return CheckEnergyLaws(Registry(), name, claims);
+  return CheckEnergyLaws(BuiltinEnergies(), name, claims);
 }
 
 TEST(RotationEnergy, ObeysTheLaws) {

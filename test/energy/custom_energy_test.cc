@@ -142,8 +142,7 @@ const std::vector<Custom>& Customs() {
 }
 
 EnergyRegistry Registry() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  EnergyRegistry registry = BuiltinEnergies();
   for (const Custom& custom : Customs()) {
     EnergyInfo info{custom.name, "a test", "r", "-", custom.kind, {}, ""};
     if (info.name == "anchor") info.parameters = {RealParameter("gain", "-", 0.5, 2, 1, "factor")};

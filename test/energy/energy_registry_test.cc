@@ -193,8 +193,7 @@ TEST(EnergyRegistry, HandsTheParametersToTheFactory) {
 }
 
 TEST(EnergyRegistry, ListsEnergiesInTheOrderOfTheirNames) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   std::vector<std::string> names;
   for (const EnergyInfo* info : registry.List()) names.push_back(info->name);
   EXPECT_THAT(names,
@@ -216,8 +215,7 @@ TEST(EnergyRegistry, ListsEnergiesInTheOrderOfTheirNames) {
 }
 
 TEST(RegisterBuiltinEnergiesDeathTest, DiesWhenANameIsTaken) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  EnergyRegistry registry = BuiltinEnergies();
   EXPECT_DEATH(RegisterBuiltinEnergies(&registry), "registered already");
 }
 

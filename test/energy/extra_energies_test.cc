@@ -28,12 +28,6 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-EnergyRegistry Registry() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
-  return registry;
-}
-
 EnergySpec Spec(const std::string& name, double weight, double point = -1.0) {
   EnergySpec spec;
   spec.name = name;
@@ -51,7 +45,7 @@ FitResult FitLandmarks(const PointCloud& source,
   FitOptions options;
   options.rigid_first = false;
   options.extra_energies = energies;
-  const StatusOr<FitResult> fit = Fit(input, options, Registry());
+  const StatusOr<FitResult> fit = Fit(input, options, BuiltinEnergies());
   EXPECT_TRUE(fit.ok()) << fit.status().message();
   return fit.ok() ? *fit : FitResult();
 }
@@ -64,7 +58,7 @@ TEST(LaplacianEnergy, ObeysTheLaws) {
            MutableNodeTranslation(state->node(j)) += Eigen::Vector3d(1, -2, 0.5);
          }
        }}};
-  EXPECT_THAT(CheckEnergyLaws(Registry(), "laplacian", claims), IsEmpty());
+  EXPECT_THAT(CheckEnergyLaws(BuiltinEnergies(), "laplacian", claims), IsEmpty());
 }
 
 TEST(LaplacianEnergy, PutsANodeBetweenItsNeighbours) {
@@ -77,7 +71,7 @@ TEST(LaplacianEnergy, PutsANodeBetweenItsNeighbours) {
   EnergyContext context;
   context.graph = &graph;
   ProblemBuilder builder(graph, /*has_camera=*/false);
-  const auto energy = Registry().Create("laplacian", {});
+  const auto energy = BuiltinEnergies().Create("laplacian", {});
   builder.CollectResiduals(builder.AddTerm("laplacian", (*energy)->kind()), **energy, context);
   DeformationState state(3);
   MutableNodeTranslation(state.node(2)).z() = 2.0;
@@ -95,7 +89,7 @@ TEST(LaplacianEnergy, PutsANodeBetweenItsNeighbours) {
 }
 
 TEST(PinnedVertexEnergy, ObeysTheLaws) {
-  EXPECT_THAT(CheckEnergyLaws(Registry(),
+  EXPECT_THAT(CheckEnergyLaws(BuiltinEnergies(),
                               "pinned_vertex",
                               [] {
                                 EnergyClaims claims;
@@ -131,7 +125,7 @@ TEST(PinnedVertexEnergy, SaysThatAPointIsNotThere) {
 }
 
 TEST(TemporalSmoothnessEnergy, ObeysTheLaws) {
-  EXPECT_THAT(CheckEnergyLaws(Registry(), "temporal_smoothness"), IsEmpty());
+  EXPECT_THAT(CheckEnergyLaws(BuiltinEnergies(), "temporal_smoothness"), IsEmpty());
 }
 
 // How far nodes move from frame to frame over a sheet that heaves, metres.
@@ -143,7 +137,7 @@ double MeanStep(double weight) {
   options.nodes_in_view = 40;
   options.camera = CameraMode::kFixed;
   if (weight > 0.0) options.levels.energies = {Spec("temporal_smoothness", weight)};
-  auto slam = DeformableSlam::Create(BumpyCamera(), options, Registry());
+  auto slam = DeformableSlam::Create(BumpyCamera(), options, BuiltinEnergies());
   EXPECT_TRUE(slam.ok()) << slam.status().message();
   double sum = 0.0;
   int count = 0;
@@ -179,7 +173,7 @@ TEST(TemporalSmoothnessEnergy, SlowsNodesDown) {
 
 TEST(TrackerFault, IsToldInItsFrameAlone) {
   bool fails = false;
-  EnergyRegistry registry = Registry();
+  EnergyRegistry registry = BuiltinEnergies();
   EnergyInfo info{"moody", "a test", "-", "-", EnergyKind::kPrior, {}, ""};
   const Status status = registry.Register(info, [&fails](const ParameterValues&) {
     return MakeEnergy(EnergyKind::kPrior, [&fails](const EnergyContext&, ResidualSink*) {
@@ -260,7 +254,7 @@ struct BoxProblem {
     context.points = &box.points;
     context.skinning = &skinning;
     context.triangles = &box.triangles;
-    energy = *Registry().Create("volume", {});
+    energy = *BuiltinEnergies().Create("volume", {});
     builder.CollectResiduals(builder.AddTerm("volume", energy->kind()), *energy, context);
   }
 

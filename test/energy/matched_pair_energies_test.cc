@@ -22,12 +22,6 @@ using ::testing::IsEmpty;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
-EnergyRegistry Registry() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
-  return registry;
-}
-
 TestProblem OffProblem() {
   TestProblemOptions options;
   options.has_camera = true;
@@ -39,7 +33,7 @@ TestProblem OffProblem() {
 std::vector<double> Residuals(const std::string& name,
                               const TestProblem& problem,
                               const DeformationState& state) {
-  const std::unique_ptr<EnergyTerm> energy = *Registry().Create(name, {});
+  const std::unique_ptr<EnergyTerm> energy = *BuiltinEnergies().Create(name, {});
   std::vector<double> values;
   for (const auto& residual : CollectResiduals(*energy, problem.Context())) {
     values.push_back(EvaluateResiduals(*residual.cost, BlocksAt(residual, state)).residuals[0]);
@@ -49,7 +43,7 @@ std::vector<double> Residuals(const std::string& name,
 
 TEST(MatchedPairEnergies, ObeyTheLaws) {
   for (const std::string name : {"symmetric_point_to_plane", "photometric"}) {
-    EXPECT_THAT(CheckEnergyLaws(Registry(), name), IsEmpty());
+    EXPECT_THAT(CheckEnergyLaws(BuiltinEnergies(), name), IsEmpty());
   }
 }
 
@@ -164,7 +158,7 @@ TEST(PhotometricEnergy, PassesOnTheWeightOfItsPair) {
   TestProblem problem = OffProblem();
   for (Correspondence& c : problem.correspondences) c.weight = 0.25 + c.point;
   const auto residuals =
-      CollectResiduals(**Registry().Create("photometric", {}), problem.Context());
+      CollectResiduals(**BuiltinEnergies().Create("photometric", {}), problem.Context());
   ASSERT_EQ(residuals.size(), problem.correspondences.size());
   for (std::size_t i = 0; i < residuals.size(); ++i) {
     EXPECT_EQ(residuals[i].weight, problem.correspondences[i].weight);

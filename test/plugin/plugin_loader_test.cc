@@ -43,8 +43,7 @@ class CollectingSink : public ResidualSink {
 };
 
 TEST(PluginLoader, AddsTheEnergyBesideTheBuiltinOnes) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  EnergyRegistry registry = BuiltinEnergies();
   const std::size_t builtin = registry.List().size();
   const Status status = LoadPlugin(PluginPath("good_plugin"), &registry);
   ASSERT_TRUE(status.ok()) << status.message();
@@ -118,8 +117,7 @@ TEST(PluginLoader, PassesOnWhatTheRegisterFunctionThrows) {
 }
 
 TEST(PluginLoader, NotesWhereAnEnergyComesFrom) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  EnergyRegistry registry = BuiltinEnergies();
   ASSERT_TRUE(LoadPlugins(PluginPath("good_plugin") + ";", &registry).ok());
   EXPECT_EQ(registry.Find("anchor")->origin, "plugin '" + PluginPath("good_plugin") + "'");
   EXPECT_EQ(registry.Find("rotation")->origin, "");

@@ -18,7 +18,6 @@ namespace ceres_ed {
 struct StripBuilder {
   explicit StripBuilder(const TestProblemOptions& options, const std::string& data_energy = "")
       : problem(MakeTestProblem(options)), builder(problem.graph, options.has_camera) {
-    RegisterBuiltinEnergies(&registry);
     rotation = Add("rotation", 1.5);
     regularization = Add("regularization", 2.5);
     data = Add(data_energy.empty() ? "point_to_point" : data_energy, 3.5);
@@ -39,7 +38,7 @@ struct StripBuilder {
   }
 
   TestProblem problem;
-  EnergyRegistry registry;
+  EnergyRegistry registry = BuiltinEnergies();
   ProblemBuilder builder;
   int rotation = -1;
   int regularization = -1;

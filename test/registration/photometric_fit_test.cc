@@ -64,8 +64,7 @@ FitOptions StiffOptions() {
 }
 
 Motion FitMotion(const FitInput& input, FitOptions options, bool photometric) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   if (photometric) options.extra_energies = {{"photometric", 1.0, {}, {}}};
   const StatusOr<FitResult> result = Fit(input, options, registry);
   EXPECT_TRUE(result.ok() && result->IsUsable());

@@ -39,8 +39,7 @@ FitOptions TwoThreads(SolveMode mode) {
 }
 
 Points FitPair(const Pair& pair, SolveMode mode) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   FitInput input;
   input.source = pair.source;
   input.target = pair.target;
@@ -50,8 +49,7 @@ Points FitPair(const Pair& pair, SolveMode mode) {
 
 // All node positions after a few frames.
 Points Track(int first_frame) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   SlamOptions options;
   options.nodes_in_view = 40;
   options.num_threads = 2;
@@ -109,8 +107,7 @@ TEST(Concurrent, FitsOfOneFitterGiveTheBytesOfOneAfterTheOther) {
   const Pair dolphin(SyntheticShape::kDolphin);
   PointCloud further = dolphin.target;
   for (Eigen::Vector3d& point : further.points) point.x() += 0.05 * point.y();
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   const auto fitter =
       SurfaceFitter::Create(dolphin.source, TwoThreads(SolveMode::kBatch), registry);
   ASSERT_TRUE(fitter.ok()) << fitter.status().message();
@@ -127,8 +124,7 @@ TEST(Concurrent, TrackersGiveTheBytesOfOneAfterTheOther) {
 }
 
 TEST(SurfaceFitter, RefusesWhatCannotBeFitted) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   PointCloud point;
   point.points.assign(5, Eigen::Vector3d::Ones());
   EXPECT_EQ(SurfaceFitter::Create(point, {}, registry).status().message(),

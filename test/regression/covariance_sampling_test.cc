@@ -54,8 +54,7 @@ class NoisyCost final : public ceres::CostFunction {
 class Sampler {
  public:
   Sampler() : problem_(MakeTestProblem(Options())), builder_(problem_.graph, true) {
-    EnergyRegistry registry;
-    RegisterBuiltinEnergies(&registry);
+    const EnergyRegistry registry = BuiltinEnergies();
     for (const char* name :
          {"rotation", "regularization", "node_prior", "pose_prior", "point_to_point"}) {
       const auto energy = registry.Create(name, {});

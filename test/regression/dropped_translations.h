@@ -113,7 +113,6 @@ class Band {
  public:
   explicit Band(TestProblem problem)
       : problem_(std::move(problem)), builder_(problem_.graph, problem_.has_camera) {
-    RegisterBuiltinEnergies(&registry_);
     Add("rotation", 1.0);
     regularization_ = Add("regularization", 10.0);
     Add("point_to_point", 100.0);
@@ -218,7 +217,7 @@ class Band {
   }
 
   TestProblem problem_;
-  EnergyRegistry registry_;
+  EnergyRegistry registry_ = BuiltinEnergies();
   ProblemBuilder builder_;
   int regularization_ = -1;
 };

@@ -34,8 +34,7 @@ const FitInput& DolphinInput() {
 }
 
 FitResult RunFit(const FitInput& input, const FitOptions& options = {}) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   StatusOr<FitResult> result = Fit(input, options, registry);
   EXPECT_TRUE(result.ok()) << result.status().message();
   if (!result.ok()) return FitResult();

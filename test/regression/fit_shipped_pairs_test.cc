@@ -37,8 +37,7 @@ struct Pair {
 };
 
 FitResult FitPair(const Pair& pair, SolveMode mode) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   FitInput input;
   input.source = pair.source;
   input.target = pair.target;

@@ -110,7 +110,6 @@ class SceneProblem {
   explicit SceneProblem(const RegressionScene& scene,
                         const std::string& data_energy = "point_to_point")
       : scene_(scene), builder_(scene.graph.graph, /*has_camera=*/false) {
-    RegisterBuiltinEnergies(&registry_);
     PointCloud truth = scene.rest;
     truth.points = scene.truth;
     const std::vector<Eigen::Vector3d> normals = ComputeVertexNormals(truth);
@@ -176,7 +175,7 @@ class SceneProblem {
   }
 
   const RegressionScene& scene_;
-  EnergyRegistry registry_;
+  EnergyRegistry registry_ = BuiltinEnergies();
   std::vector<Correspondence> correspondences_;
   std::vector<Correspondence> no_landmarks_;
   ProblemBuilder builder_;

@@ -183,8 +183,7 @@ std::vector<FrameReport> Track(int first, int last, DeformableSlam* slam) {
 }
 
 std::unique_ptr<DeformableSlam> MakeSlam() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   SlamOptions options;
   options.nodes_in_view = 40;
   auto slam = DeformableSlam::Create(BumpyCamera(), options, registry);

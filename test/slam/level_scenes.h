@@ -73,8 +73,7 @@ struct LevelScene {
 
   // The terms of LevelsOptions over the whole graph, at the present state.
   std::unique_ptr<ProblemBuilder> WholeProblem(const LevelsOptions& options) const {
-    EnergyRegistry registry;
-    RegisterBuiltinEnergies(&registry);
+    const EnergyRegistry registry = BuiltinEnergies();
     EnergyContext context = problem.Context();
     context.graph = &map.graph();
     context.landmarks = &landmarks;
@@ -148,8 +147,7 @@ inline LevelsOptions ExactLevels(int rings, SeamEdges seam_edges) {
 }
 
 inline std::unique_ptr<Levels> MakeLevels(const LevelsOptions& options) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   StatusOr<std::unique_ptr<Levels>> levels = Levels::Create(options, registry);
   CHECK(levels.ok()) << levels.status().message();
   return *std::move(levels);

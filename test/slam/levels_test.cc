@@ -327,8 +327,7 @@ TEST(Levels, CountDataPerNodeWhateverTheirNumber) {
 }
 
 TEST(Levels, TakeMoreEnergiesByName) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   LevelsOptions options;
   options.energies = {{"rotaton", 1.0, {}, {}}};
   EXPECT_THAT(Levels::Create(options, registry).status().message(), HasSubstr("rotaton"));

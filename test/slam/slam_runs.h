@@ -77,8 +77,7 @@ inline Eigen::Isometry3d ToIsometry(const CameraPose& pose) {
 
 inline std::unique_ptr<DeformableSlam> MakeSlam(const PinholeCamera& camera,
                                                 const SlamOptions& options = {}) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   auto slam = DeformableSlam::Create(camera, options, registry);
   CHECK(slam.ok()) << slam.status().message();
   return *std::move(slam);

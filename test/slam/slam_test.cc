@@ -235,8 +235,7 @@ TEST(DeformableSlam, SkipsFramesThatShowNothing) {
 }
 
 TEST(DeformableSlam, RefusesBadIntrinsicsAndEnergies) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   PinholeCamera camera = KidneySequence().camera;
   camera.fy = 0.0;
   EXPECT_THAT(DeformableSlam::Create(camera, SlamOptions(), registry).status().message(),
@@ -268,8 +267,7 @@ TEST(WithSharedSettings, HandsThreadsAndCameraToEveryStage) {
 }
 
 TEST(SlamOptions, NameWhatIsOutOfRange) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   SlamOptions options;
   options.levels.strategy.rings = -1;
   EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),

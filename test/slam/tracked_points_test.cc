@@ -18,8 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 
 std::unique_ptr<DeformableSlam> MakeSlam() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   SlamOptions options;
   options.nodes_in_view = 40;
   auto slam = DeformableSlam::Create(BumpyCamera(), options, registry);

@@ -20,8 +20,7 @@ namespace ceres_ed {
 // All energies of a test problem, each with its weight and loss.
 inline std::unique_ptr<ProblemBuilder> MakeBuilder(const TestProblem& problem,
                                                    const LossSpec& loss) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   auto builder = std::make_unique<ProblemBuilder>(problem.graph, problem.has_camera);
   const EnergyContext context = problem.Context();
   const auto add = [&](const char* name, double weight, const LossSpec& term_loss) {

@@ -64,7 +64,6 @@ class WideCost final : public ceres::CostFunction {
 struct WideProblem {
   explicit WideProblem(bool has_camera, const LossSpec& loss = {})
       : problem(MakeTestProblem(Options(has_camera))), builder(problem.graph, has_camera) {
-    RegisterBuiltinEnergies(&registry);
     const auto wide =
         MakeEnergy(EnergyKind::kPrior, [](const EnergyContext& context, ResidualSink* sink) {
           const int num_nodes = context.graph->num_nodes();
@@ -98,7 +97,7 @@ struct WideProblem {
   }
 
   TestProblem problem;
-  EnergyRegistry registry;
+  EnergyRegistry registry = BuiltinEnergies();
   ProblemBuilder builder;
 };
 

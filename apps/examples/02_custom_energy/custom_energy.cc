@@ -85,8 +85,7 @@ double LowestPoint(const EnergyRegistry& registry, const std::vector<EnergySpec>
 }  // namespace
 
 int main() {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  EnergyRegistry registry = BuiltinEnergies();
   CHECK(RegisterFloor(&registry).ok());
 
   EnergyClaims claims;

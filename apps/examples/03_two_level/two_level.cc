@@ -21,8 +21,7 @@ double ErrorPercent(const FitResult& fit, const SyntheticPair& pair) {
 }
 
 FitResult FitPair(const SyntheticPair& pair, SolveMode mode) {
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   FitInput input;
   input.source = pair.source;
   input.target = pair.target;

@@ -37,8 +37,7 @@ int main(int argc, char** argv) {  // sequence FOLDER MAP.ply
   const StatusOr<std::unique_ptr<DepthSequence>> sequence = OpenSequence(argv[1]);
   if (!sequence.ok()) return Fail(sequence.status());
 
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   const StatusOr<std::unique_ptr<DeformableSlam>> slam =
       DeformableSlam::Create((*sequence)->camera(), SlamOptions(), registry);
   if (!slam.ok()) return Fail(slam.status());

@@ -37,8 +37,7 @@ int main() {
   context.correspondences = &none;
   context.landmarks = &landmarks;
 
-  EnergyRegistry registry;
-  RegisterBuiltinEnergies(&registry);
+  const EnergyRegistry registry = BuiltinEnergies();
   ProblemBuilder builder(graph, /*has_camera=*/false);
   for (const char* name : {"rotation", "regularization", "landmark"}) {
     const auto term = registry.Create(name, {});
