@@ -92,26 +92,12 @@ BlockStructure Sheet(int columns, int rows, const SharePoints& share_points) {
   return BlockStructure(sizes, pairs);
 }
 
-// Random values, none where affine parts aren't coupled.
-std::vector<double> ValuesOf(const BlockStructure& structure) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::vector<double> values(structure.num_values());
-  for (double& value : values) value = uniform(random);
-  for (int e = 0; e < structure.num_entries(); ++e) {
-    if (structure.head_pair(e)) continue;
-    double* block = &values[structure.value_offset(e)];
-    for (int c = 0; c < 9; ++c) std::fill_n(block + 12 * c, 9, 0.0);
-  }
-  return values;
-}
-
 TEST(BlockCholesky, EliminatesLoneHeadsFirst) {
   // The left half shares points: nodes of both kinds, and a seam between.
   const auto left = [](int a, int b) { return a < 42 && b < 42; };
   const BlockStructure mixed = Sheet(12, 7, left);
   const BlockStructure whole = Sheet(12, 7, [](int, int) { return true; });
-  const std::vector<double> values = ValuesOf(mixed);
+  const std::vector<double> values = RandomValues(mixed, 5);
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(mixed.num_rows(), 60.0);
   Eigen::MatrixXd dense = DenseOf(mixed, values);
   dense.diagonal() += diagonal;
@@ -135,7 +121,7 @@ TEST(BlockCholesky, EliminatesDualBlocks) {
     const int rows = many ? 9 : 4;
     const int num_nodes = columns * rows;
     const BlockStructure primal = Sheet(columns, rows, [](int, int) { return false; });
-    std::vector<double> values = ValuesOf(primal);
+    std::vector<double> values = RandomValues(primal, 5);
     std::vector<BlockPair> pairs = primal.Pairs();
     std::vector<int> sizes(num_nodes, 12);
     sizes.push_back(6);
@@ -221,7 +207,7 @@ TEST(BlockCholesky, HoldsWhatIsFreeUntilTheDualsHaveHadTheirSay) {
 // Large enough for several tasks, for updates on several threads and for both orderings.
 TEST(BlockCholesky, GivesTheSameBitsOnAnyNumberOfThreads) {
   const BlockStructure structure = Sheet(60, 30, [](int, int) { return true; });
-  const std::vector<double> values = ValuesOf(structure);
+  const std::vector<double> values = RandomValues(structure, 5);
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(structure.num_rows(), 120.0);
   const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(structure.num_rows(), -1.0, 2.0);
   BlockCholesky serial(structure);

@@ -1,15 +1,31 @@
-// Block matrices as dense ones, to compare with.
+// Block matrices with random values, and dense ones to compare with.
 #ifndef CERES_ED_TEST_LINEAR_ALGEBRA_DENSE_MATRIX_H_
 #define CERES_ED_TEST_LINEAR_ALGEBRA_DENSE_MATRIX_H_
 
 #include <ceres_ed/linear_algebra/block_structure.h>
 
+#include <algorithm>
+#include <random>
 #include <vector>
 
 #include <Eigen/Core>
 #include <ceres/crs_matrix.h>
 
 namespace ceres_ed {
+
+// Random values for the blocks; 0 where affine parts are not coupled.
+inline std::vector<double> RandomValues(const BlockStructure& structure, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<double> values(structure.num_values());
+  for (double& value : values) value = uniform(random);
+  for (int e = 0; e < structure.num_entries(); ++e) {
+    if (structure.head_pair(e)) continue;
+    double* block = &values[structure.value_offset(e)];
+    for (int c = 0; c < 9; ++c) std::fill_n(block + 12 * c, 9, 0.0);
+  }
+  return values;
+}
 
 // The lower triangle in blocks as a full symmetric matrix.
 inline Eigen::MatrixXd DenseOf(const BlockStructure& structure, const std::vector<double>& values) {

@@ -2,7 +2,6 @@
 #include <ceres_ed/linear_algebra/block_cholesky.h>
 
 #include <algorithm>
-#include <random>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -31,22 +30,9 @@ BlockStructure Sheet(int columns, int rows) {
   return BlockStructure(sizes, pairs);
 }
 
-std::vector<double> RandomValues(const BlockStructure& structure) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  std::vector<double> values(structure.num_values());
-  for (double& value : values) value = uniform(random);
-  for (int e = 0; e < structure.num_entries(); ++e) {
-    if (structure.head_pair(e)) continue;
-    double* block = &values[structure.value_offset(e)];
-    for (int c = 0; c < 9; ++c) std::fill_n(block + 12 * c, 9, 0.0);
-  }
-  return values;
-}
-
 TEST(SelectedInverse, HasTheInverseWhereTheFactorIs) {
   const BlockStructure structure = Sheet(14, 6);
-  const std::vector<double> values = RandomValues(structure);
+  const std::vector<double> values = RandomValues(structure, 7);
   const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(structure.num_rows(), 40.0);
   Eigen::MatrixXd dense = DenseOf(structure, values);
   dense.diagonal() += diagonal;

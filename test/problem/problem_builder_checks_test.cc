@@ -16,12 +16,6 @@ namespace {
 
 using ::testing::HasSubstr;
 
-TestProblemOptions HalfSeen() {
-  TestProblemOptions options;
-  options.observed_columns = 2;
-  return options;
-}
-
 // Cannot be evaluated anywhere.
 class FailingCost final : public ceres::CostFunction {
  public:

@@ -10,16 +10,6 @@
 namespace ceres_ed {
 namespace {
 
-// 6 x 3 nodes, one point in each of the first two columns of cells, so that the first three columns
-// of nodes are PR.
-TestProblemOptions HalfSeen(bool has_camera = false) {
-  TestProblemOptions options;
-  options.observed_columns = 2;
-  options.has_camera = has_camera;
-  options.target_deviation = 0.1;
-  return options;
-}
-
 struct Counts {
   int residual_blocks;
   int parameter_blocks;

@@ -15,15 +15,6 @@
 namespace ceres_ed {
 namespace {
 
-TestProblemOptions HalfSeen(bool has_camera) {
-  TestProblemOptions options;
-  options.observed_columns = 2;
-  options.points_per_cell = 2;
-  options.has_camera = has_camera;
-  options.target_deviation = 0.1;
-  return options;
-}
-
 // The Jacobian of one term alone, over all nodes in the given order, then the camera.
 ceres::CRSMatrix JacobianOf(StripBuilder* strip,
                             int term,
@@ -73,7 +64,7 @@ std::vector<int> PointRelevantFirst(const std::vector<char>& relevant) {
 TEST(DataJacobian, HasNoColumnsOfPointIrrelevantNodes) {
   for (const std::string energy : {"point_to_point", "point_to_plane"}) {
     for (const bool has_camera : {false, true}) {
-      StripBuilder strip(HalfSeen(has_camera), energy);
+      StripBuilder strip(HalfSeen(has_camera, 2), energy);
       const std::vector<char> relevant = strip.builder.PointRelevantNodes();
       const std::vector<int> order = PointRelevantFirst(relevant);
       DeformationState state = RandomState(strip.problem, 0.3, 2);
@@ -93,7 +84,7 @@ TEST(DataJacobian, HasNoColumnsOfPointIrrelevantNodes) {
 }
 
 TEST(RotationJacobian, IsBlockDiagonal) {
-  StripBuilder strip(HalfSeen(false));
+  StripBuilder strip(HalfSeen(false, 2));
   const std::vector<int> order = PointRelevantFirst(strip.builder.PointRelevantNodes());
   DeformationState state = RandomState(strip.problem, 0.3, 2);
   const ceres::CRSMatrix J = JacobianOf(&strip, strip.rotation, order, &state);
@@ -107,7 +98,7 @@ TEST(RotationJacobian, IsBlockDiagonal) {
 }
 
 TEST(RegularizationJacobian, JoinsTheTwoNodesOfEachEdge) {
-  StripBuilder strip(HalfSeen(false));
+  StripBuilder strip(HalfSeen(false, 2));
   std::vector<int> order;
   for (int j = 0; j < 18; ++j) order.push_back(j);
   DeformationState state = RandomState(strip.problem, 0.3, 2);
@@ -129,7 +120,7 @@ TEST(RegularizationJacobian, JoinsTheTwoNodesOfEachEdge) {
 
 // d E_data / d Phi = R_c Pi (Eq. 13): the matrix form gives the data Jacobian by the nodes.
 TEST(DataJacobian, IsThatOfTheMatrixForm) {
-  StripBuilder strip(HalfSeen(true));
+  StripBuilder strip(HalfSeen(true, 2));
   std::vector<int> order;
   for (int j = 0; j < 18; ++j) order.push_back(j);
   DeformationState state = RandomState(strip.problem, 0.3, 2);

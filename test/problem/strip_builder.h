@@ -14,6 +14,16 @@
 
 namespace ceres_ed {
 
+// Points in the first two of five columns of cells: the first three of six columns of nodes are PR.
+inline TestProblemOptions HalfSeen(bool has_camera = false, int points_per_cell = 1) {
+  TestProblemOptions options;
+  options.observed_columns = 2;
+  options.points_per_cell = points_per_cell;
+  options.has_camera = has_camera;
+  options.target_deviation = 0.1;
+  return options;
+}
+
 // Weights are prime-like, so that a mix-up shows.
 struct StripBuilder {
   explicit StripBuilder(const TestProblemOptions& options, const std::string& data_energy = "")

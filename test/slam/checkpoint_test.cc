@@ -1,6 +1,5 @@
 #include "ceres_ed/slam/checkpoint.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam.h>
 
@@ -15,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <test/slam/bumpy_sequence.h>
+#include <test/slam/slam_runs.h>
 
 namespace ceres_ed {
 namespace {
@@ -182,15 +182,6 @@ std::vector<FrameReport> Track(int first, int last, DeformableSlam* slam) {
   return reports;
 }
 
-std::unique_ptr<DeformableSlam> MakeSlam() {
-  const EnergyRegistry registry = BuiltinEnergies();
-  SlamOptions options;
-  options.nodes_in_view = 40;
-  auto slam = DeformableSlam::Create(BumpyCamera(), options, registry);
-  EXPECT_TRUE(slam.ok());
-  return *std::move(slam);
-}
-
 std::string SaveSlam(DeformableSlam* slam) {
   CheckpointWriter writer;
   slam->Exchange(&writer);
@@ -198,11 +189,11 @@ std::string SaveSlam(DeformableSlam* slam) {
 }
 
 TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {
-  const std::unique_ptr<DeformableSlam> saved = MakeSlam();
+  const std::unique_ptr<DeformableSlam> saved = MakeBumpySlam();
   Track(0, 4, saved.get());
   const std::string bytes = SaveSlam(saved.get());
 
-  const std::unique_ptr<DeformableSlam> loaded = MakeSlam();
+  const std::unique_ptr<DeformableSlam> loaded = MakeBumpySlam();
   // Whatever it held is gone.
   Track(2, 3, loaded.get());
   const auto reader = CheckpointReader::Open(bytes);

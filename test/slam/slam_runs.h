@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <test/slam/bumpy_sequence.h>
 
 namespace ceres_ed {
 
@@ -81,6 +82,13 @@ inline std::unique_ptr<DeformableSlam> MakeSlam(const PinholeCamera& camera,
   auto slam = DeformableSlam::Create(camera, options, registry);
   CHECK(slam.ok()) << slam.status().message();
   return *std::move(slam);
+}
+
+// A run over BumpyScene.
+inline std::unique_ptr<DeformableSlam> MakeBumpySlam() {
+  SlamOptions options;
+  options.nodes_in_view = 40;
+  return MakeSlam(BumpyCamera(), options);
 }
 
 // Every living point in the present camera frame, metres.

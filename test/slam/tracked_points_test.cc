@@ -1,6 +1,5 @@
 #include "ceres_ed/slam/tracked_points.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 
 #include <memory>
@@ -11,20 +10,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <test/slam/bumpy_sequence.h>
+#include <test/slam/slam_runs.h>
 
 namespace ceres_ed {
 namespace {
 
 using ::testing::HasSubstr;
-
-std::unique_ptr<DeformableSlam> MakeSlam() {
-  const EnergyRegistry registry = BuiltinEnergies();
-  SlamOptions options;
-  options.nodes_in_view = 40;
-  auto slam = DeformableSlam::Create(BumpyCamera(), options, registry);
-  EXPECT_TRUE(slam.ok());
-  return *std::move(slam);
-}
 
 FrameStatus Process(const DepthImage& depth, int number, DeformableSlam* slam) {
   SlamFrame frame;
@@ -40,7 +31,7 @@ Eigen::Vector3d PointAt(const BumpyScene& scene, double u, double v) {
 
 TEST(TrackedPoints, AreWhereTheyWereGivenInTheFirstFrame) {
   const BumpyScene scene;
-  const std::unique_ptr<DeformableSlam> slam = MakeSlam();
+  const std::unique_ptr<DeformableSlam> slam = MakeBumpySlam();
   ASSERT_EQ(Process(scene.RenderDepth(0), 0, slam.get()), FrameStatus::kInitialized);
   const std::vector<NamedPoint> named = {{4, PointAt(scene, 20, 30)}, {9, PointAt(scene, 70, 50)}};
   const auto tracked = TrackedPoints::Bind(named, *slam, BumpyCamera());
@@ -57,7 +48,7 @@ TEST(TrackedPoints, AreWhereTheyWereGivenInTheFirstFrame) {
 TEST(TrackedPoints, FollowTheTissuePastACameraThatMoves) {
   BumpyScene scene;
   scene.camera_step = 0.001;
-  const std::unique_ptr<DeformableSlam> slam = MakeSlam();
+  const std::unique_ptr<DeformableSlam> slam = MakeBumpySlam();
   Process(scene.RenderDepth(0), 0, slam.get());
   const std::vector<NamedPoint> named = {{0, PointAt(scene, 47, 35)}, {1, PointAt(scene, 3, 35)}};
   const auto tracked = TrackedPoints::Bind(named, *slam, BumpyCamera());
@@ -83,7 +74,7 @@ TEST(TrackedPoints, AreNotVisibleBehindTheMap) {
   for (int v = 0; v < depth.height(); ++v) {
     for (int u = 0; u < 48; ++u) depth(u, v) = 0.06f;
   }
-  const std::unique_ptr<DeformableSlam> slam = MakeSlam();
+  const std::unique_ptr<DeformableSlam> slam = MakeBumpySlam();
   ASSERT_EQ(Process(depth, 0, slam.get()), FrameStatus::kInitialized);
   TrackedPointsOptions options;
   // The hidden one is 40 mm behind the plate.
@@ -98,7 +89,7 @@ TEST(TrackedPoints, AreNotVisibleBehindTheMap) {
 
 TEST(TrackedPoints, RefuseAPointFarFromTheMapByName) {
   const BumpyScene scene;
-  const std::unique_ptr<DeformableSlam> slam = MakeSlam();
+  const std::unique_ptr<DeformableSlam> slam = MakeBumpySlam();
   Process(scene.RenderDepth(0), 0, slam.get());
   const std::vector<NamedPoint> named = {{3, PointAt(scene, 47, 35)}, {17, {0.0, 0.0, 0.5}}};
   const auto tracked = TrackedPoints::Bind(named, *slam, BumpyCamera());

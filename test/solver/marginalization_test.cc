@@ -16,13 +16,10 @@
 namespace ceres_ed {
 namespace {
 
-// Six columns of three nodes, of which the first two are PR.
-TestProblemOptions HalfSeen(bool has_camera = false) {
-  TestProblemOptions options;
+// Points in the first column of cells alone: the first two of six columns of nodes are PR.
+TestProblemOptions OneColumnSeen(bool has_camera = false) {
+  TestProblemOptions options = HalfSeen(has_camera, 4);
   options.observed_columns = 1;
-  options.points_per_cell = 4;
-  options.has_camera = has_camera;
-  options.target_deviation = 0.1;
   return options;
 }
 
@@ -120,7 +117,7 @@ void ExpectSamePrior(const Marginalization& a, const Marginalization& b, double 
 
 TEST(Marginalization, PriorIsTheLeastLinearisedEnergyAndBackSubstitutionWhereItIs) {
   for (const LossType loss : {LossType::kSquared, LossType::kWelsch}) {
-    StripBuilder strip(HalfSeen());
+    StripBuilder strip(OneColumnSeen());
     strip.builder.SetLoss(strip.rotation, {loss, 0.5});
     strip.builder.SetLoss(strip.regularization, {loss, 0.5});
     const DeformationState state = RandomState(strip.problem, 0.1, 4);
@@ -149,7 +146,7 @@ TEST(Marginalization, PriorIsTheLeastLinearisedEnergyAndBackSubstitutionWhereItI
 }
 
 TEST(Marginalization, ARigidMotionOfTheSeamCostsNothing) {
-  StripBuilder strip(HalfSeen());
+  StripBuilder strip(OneColumnSeen());
   const DeformationState rest(18);
   Marginalization marginalization;
   Eliminate(strip.builder, Columns(2, 6), rest, 0.0, &marginalization);
@@ -175,7 +172,7 @@ TEST(Marginalization, ARigidMotionOfTheSeamCostsNothing) {
 
 // A prior is a residual like any other.
 TEST(Marginalization, InTwoStagesIsTheSameAsInOne) {
-  StripBuilder strip(HalfSeen());
+  StripBuilder strip(OneColumnSeen());
   const DeformationState state = RandomState(strip.problem, 0.1, 6);
   Marginalization at_once;
   Eliminate(strip.builder, Columns(2, 6), state, 0.0, &at_once);
@@ -203,7 +200,7 @@ TEST(Marginalization, InTwoStagesIsTheSameAsInOne) {
 
 // The prior energy is linear in t: where its target moves, only the gradient changes.
 TEST(Marginalization, UpdateWithAMovedTargetIsTheSameAsANewElimination) {
-  StripBuilder strip(HalfSeen());
+  StripBuilder strip(OneColumnSeen());
   const int node_prior = strip.Add("node_prior", 0.5);
   DeformationState state = RandomState(strip.problem, 0.1, 7);
   Marginalization updated;
@@ -230,7 +227,7 @@ TEST(Marginalization, UpdateWithAMovedTargetIsTheSameAsANewElimination) {
 }
 
 TEST(Marginalization, ForgetsTheFactorWithOtherWeightsOrNodes) {
-  StripBuilder strip(HalfSeen());
+  StripBuilder strip(OneColumnSeen());
   const DeformationState state = RandomState(strip.problem, 0.1, 7);
   Marginalization marginalization;
   Eliminate(strip.builder, Columns(2, 6), state, 0.0, &marginalization);
@@ -251,7 +248,7 @@ TEST(Marginalization, ForgetsTheFactorWithOtherWeightsOrNodes) {
 }
 
 TEST(Marginalization, IsTheSameBitsOnAnyNumberOfThreads) {
-  StripBuilder strip(HalfSeen());
+  StripBuilder strip(OneColumnSeen());
   const DeformationState state = RandomState(strip.problem, 0.1, 7);
   Marginalization one;
   Eliminate(strip.builder, Columns(2, 6), state, 0.0, &one);
@@ -269,7 +266,7 @@ TEST(Marginalization, IsTheSameBitsOnAnyNumberOfThreads) {
 
 // Nothing holds the nodes where they all go at once: a rigid motion costs nothing.
 TEST(Marginalization, OfEveryNodeNeedsDampingAndHasNoSeam) {
-  StripBuilder strip(HalfSeen());
+  StripBuilder strip(OneColumnSeen());
   strip.builder.SetWeight(strip.data, 0.0);
   strip.builder.SetWeight(strip.rotation, 0.0);
   const DeformationState state = RandomState(strip.problem, 0.1, 7);
@@ -287,7 +284,7 @@ TEST(Marginalization, OfEveryNodeNeedsDampingAndHasNoSeam) {
 }
 
 TEST(Marginalization, RefusesNodesThatAResidualJoinsToTheCamera) {
-  StripBuilder strip(HalfSeen(true));
+  StripBuilder strip(OneColumnSeen(true));
   Marginalization marginalization;
   const Status status = marginalization.SetProblem(strip.builder, Columns(1, 6));
   ASSERT_FALSE(status.ok());

@@ -56,10 +56,8 @@ class FragileEnergy final : public EnergyTerm {
   bool not_a_number_;
 };
 
-TestProblemOptions HalfSeen() {
-  TestProblemOptions options;
-  options.observed_columns = 2;
-  options.points_per_cell = 4;
+TestProblemOptions FarFromTargets() {
+  TestProblemOptions options = HalfSeen(/*has_camera=*/false, 4);
   options.target_deviation = 0.3;
   return options;
 }
@@ -86,7 +84,7 @@ class StrategyStatus : public ::testing::TestWithParam<Case> {
         term, FragileEnergy(node, everywhere, not_a_number), strip_.problem.Context());
   }
 
-  StripBuilder strip_{HalfSeen()};
+  StripBuilder strip_{FarFromTargets()};
   DeformationState state_{18};
 };
 
@@ -191,7 +189,7 @@ INSTANTIATE_TEST_SUITE_P(
 // The seam would be torn, were Level II to find no time left.
 TEST(TwoLevelStrategy, LetsPointIrrelevantNodesFollowWhenLevelOneRunsOutOfTime) {
   for (const LinearSolver linear_solver : {LinearSolver::kCeres, LinearSolver::kBlock}) {
-    const StripBuilder strip(HalfSeen());
+    const StripBuilder strip(FarFromTargets());
     StrategyOptions strategy;
     strategy.mode = SolveMode::kTwoLevel;
     strategy.rings = 0;

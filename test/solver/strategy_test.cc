@@ -28,16 +28,6 @@ std::unique_ptr<Strategy> Make(SolveMode mode,
   return MakeStrategy(options);
 }
 
-// The first three of six columns are PR.
-TestProblemOptions HalfSeen(bool has_camera = false) {
-  TestProblemOptions options;
-  options.observed_columns = 2;
-  options.points_per_cell = 4;
-  options.has_camera = has_camera;
-  options.target_deviation = 0.1;
-  return options;
-}
-
 TEST(SolverOptions, AreValidByDefault) {
   std::string error;
   EXPECT_TRUE(SolverOptions().IsValid(&error)) << error;
@@ -120,7 +110,7 @@ TEST(Strategy, FindsARigidMotionOfAllPoints) {
 
 TEST(Strategy, CountsWhatEachLevelDid) {
   for (const LinearSolver linear_solver : kLinearSolvers) {
-    const StripBuilder strip(HalfSeen(true));
+    const StripBuilder strip(HalfSeen(true, 4));
     DeformationState state(18);
     const SolveSummary batch =
         Make(SolveMode::kBatch, linear_solver)->Solve(strip.builder, {}, &state);
@@ -150,7 +140,7 @@ TEST(Strategy, CountsWhatEachLevelDid) {
 TEST(Strategy, SummaryHasTheFullEnergyBeforeAndAfter) {
   for (const LinearSolver linear_solver : kLinearSolvers) {
     for (const SolveMode mode : kModes) {
-      const StripBuilder strip(HalfSeen(true));
+      const StripBuilder strip(HalfSeen(true, 4));
       DeformationState state = RandomState(strip.problem, 0.1, 8);
       const double before = strip.builder.Evaluate(state).Total();
       const SolveSummary summary = Make(mode, linear_solver)->Solve(strip.builder, {}, &state);
@@ -163,7 +153,7 @@ TEST(Strategy, SummaryHasTheFullEnergyBeforeAndAfter) {
 }
 
 TEST(Strategy, LinearSolversFindTheSameMinimum) {
-  const StripBuilder strip(HalfSeen());
+  const StripBuilder strip(HalfSeen(false, 4));
   SolverOptions solver;
   solver.max_iterations = 200;
   solver.function_tolerance = 1e-15;
@@ -185,7 +175,7 @@ TEST(Strategy, LinearSolversFindTheSameMinimum) {
 // Level II on its own: every PI node at its best while the PR nodes stay.
 TEST(TwoLevelStrategy, LeavesTheSeenPartAsLevelOneHadIt) {
   for (const SeamEdges seam_edges : {SeamEdges::kKeep, SeamEdges::kCut}) {
-    const StripBuilder strip(HalfSeen(true));
+    const StripBuilder strip(HalfSeen(true, 4));
     SolverOptions solver;
     solver.max_iterations = 200;
     solver.function_tolerance = 1e-15;
@@ -210,7 +200,7 @@ TEST(TwoLevelStrategy, LeavesTheSeenPartAsLevelOneHadIt) {
 }
 
 TEST(TwoLevelStrategy, MovesNothingWhereNothingIsSeen) {
-  TestProblemOptions options = HalfSeen();
+  TestProblemOptions options = HalfSeen(false, 4);
   options.observed_columns = 0;
   for (const LinearSolver linear_solver : kLinearSolvers) {
     const StripBuilder strip(options);
