@@ -3,15 +3,19 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+if ! command -v clang-tidy >/dev/null; then
+  echo "lint.sh: clang-tidy is missing: scripts/setup.sh lint" >&2
+  exit 1
+fi
 case "${1:-}" in
-  "") files=$(git diff --name-only --diff-filter=d HEAD -- '*.cc'; git ls-files --others --exclude-standard -- '*.cc') ;;
-  --all) files=$(find apps ceres_ed data test -name '*.cc' -not -path '*/consumer/*' -not -path 'test/install/*') ;;
+  "") mapfile -t files < <(git diff --name-only --diff-filter=d HEAD -- '*.cc'
+                           git ls-files --others --exclude-standard -- '*.cc')
+      if [[ ${#files[@]} -eq 0 ]]; then
+        echo "lint: no files to check"
+        exit 0
+      fi ;;
+  --all) files=() ;;
   *) echo "usage: lint.sh [--all]" >&2; exit 1 ;;
 esac
-if [[ -z $files ]]; then
-  echo "lint: no files to check"
-  exit 0
-fi
 scripts/configure.sh dev -DCERES_ED_BUILD_BENCHMARKS=OFF
-printf '%s\n' "$files" | tr '\n' '\0' |
-  xargs -0 -n 1 -P "$(nproc)" clang-tidy --quiet -p build/dev
+python3 scripts/lint.py build/dev "${files[@]}"

@@ -34,7 +34,7 @@ add_list() {
       for list in packages pcl docs; do add_list "$list"; done
       packages+=(ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy)
       ;;
-    lint) packages+=(clang-format-14 clang-tidy-14) ;;
+    lint) packages+=(clang-format clang-tidy) ;;
     all) add_list test && add_list lint ;;
     *)
       echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, packages, docs, test, lint or all" >&2

@@ -1,0 +1,135 @@
+#!/usr/bin/python3
+"""Runs clang-tidy on files of a build: lint.py BUILD_FOLDER [FILE ...]; without files, on all of the build.
+
+Nearly all of clang-tidy's time goes into the headers of Eigen, Ceres and GoogleTest. So the files
+of a top folder are checked in units that include many of them, and those headers are read once a unit. Files that
+define the same name at namespace scope go into different units. Where a unit does not compile all the same, its
+files are checked one by one.
+"""
+import collections
+import concurrent.futures
+import json
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
+FILES_PER_UNIT = 25
+# clang has another default than g++ 12.
+OWN_FLAGS = ["-std=gnu++17"]
+# The included files are what is checked, and not only the headers.
+FILTER = "--header-filter=.*/(apps|ceres_ed|cost_functions|data|test)/.*"
+# The code is formatted, so what begins in column 0 is at namespace scope. The name is that before the first of
+# ( [ ; = { or the end of the line; the definition of a member has a "::" before it.
+DEFINED = re.compile(
+    r"(?:TEST(?:_[FP])?\((\w+, *\w+)"
+    r"|(?:#define |(?!#|//|TEST|namespace|return|using namespace)[\w\[][^(={;]*?(?<!::))"
+    r"\b([A-Za-z_]\w*)(?:\(|\[\d*\]|;|$| [={:]|\{))"
+)
+
+
+def compile_flags(build):
+    """Returns {file: its -I, -isystem and -D flags} from the build's compile_commands.json."""
+    with open(os.path.join(build, "compile_commands.json"), encoding="utf-8") as file:
+        commands = json.load(file)
+    flags = {}
+    for command in commands:
+        words = shlex.split(command["command"])
+        flags.setdefault(command["file"], [
+            word if word.startswith("-") else f"-isystem{word}"
+            for before, word in zip(words, words[1:])
+            if re.match(r"-I|-D(?!\w+_EXPORTS$)", word) or before == "-isystem"
+        ])
+    return flags
+
+
+def defined_names(path):
+    """Returns the names that a file defines at namespace scope."""
+    names = set()
+    with open(path, encoding="utf-8") as file:
+        for line in file:
+            if match := DEFINED.match(line):
+                names.add(match[1] or match[2])
+    return names
+
+
+class Unit:
+    """Files that are checked together, and what they are compiled with."""
+
+    def __init__(self):
+        self.files = []
+        self.names = set()
+        self.flags = {}
+
+    def take(self, path, names, flags):
+        """Adds a file, unless it does not go with those that are there. Returns whether it did."""
+        values = {flag.split("=")[0]: flag for flag in flags}
+        if len(self.files) == FILES_PER_UNIT or self.names & names:
+            return False
+        if any(self.flags.get(key, flag) != flag for key, flag in values.items()):
+            return False
+        self.files.append(path)
+        self.names |= names
+        self.flags.update(values)
+        return True
+
+
+def make_units(flags):
+    """Returns units of all files in {file: flags}, large ones first."""
+    begun = collections.defaultdict(list)
+    for path in sorted(flags):
+        units = begun[os.path.relpath(path, ROOT).split(os.sep)[0]]
+        units.append(Unit())
+        names = defined_names(path)
+        next(unit for unit in units if unit.take(path, names, flags[path]))
+        if not units[-1].files:
+            units.pop()
+    return sorted((unit for units in begun.values() for unit in units), key=lambda unit: -len(unit.files))
+
+
+def check(build, name, paths, flags):
+    """Returns what clang-tidy says of the files as one unit; empty where they are clean."""
+    main = paths[0]
+    if len(paths) > 1:
+        main = os.path.join(build, "lint", name + ".cc")
+        with open(main, "w", encoding="utf-8") as file:
+            file.writelines(f'#include "{path}"  // NOLINT(bugprone-suspicious-include)\n' for path in paths)
+    command = ["clang-tidy", "--quiet", FILTER, main, "--", *flags, *OWN_FLAGS]
+    done = subprocess.run(command, capture_output=True, text=True, check=False, cwd=ROOT)
+    if done.returncode == 0:
+        return ""
+    error = re.search(r".*\[clang-diagnostic-error", done.stdout)
+    if len(paths) > 1 and error:
+        print(f"lint: {name} does not compile as one: {error[0]}", file=sys.stderr)
+        return "".join(check(build, name, [path], flags) for path in paths)
+    return done.stdout or done.stderr
+
+
+def main():
+    build = os.path.abspath(sys.argv[1])
+    flags = compile_flags(build)
+    if len(sys.argv) > 2:
+        files = [os.path.abspath(path) for path in sys.argv[2:]]
+        left_out = [os.path.relpath(path, ROOT) for path in files if path not in flags]
+        if left_out:
+            print("lint: not in the build, so not checked:", *left_out)
+        flags = {path: flags[path] for path in files if path in flags}
+    units = make_units(flags)
+    os.makedirs(os.path.join(build, "lint"), exist_ok=True)
+    failed = False
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        jobs = [
+            pool.submit(check, build, f"unit_{i}", unit.files, list(unit.flags.values()))
+            for i, unit in enumerate(units)
+        ]
+        for job in concurrent.futures.as_completed(jobs):
+            failed |= bool(job.result())
+            print(job.result(), end="", flush=True)
+    print(f"lint: {len(flags)} files in {len(units)} units:", "faults" if failed else "clean")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
