@@ -1,8 +1,10 @@
 #include "ceres_ed/energy/energy_spec.h"
 
+#include <ceres_ed/util/text.h>
+
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include <cost_functions/robust_loss.h>
@@ -20,13 +22,6 @@ constexpr NamedLoss kLosses[] = {{"squared", LossType::kSquared},
                                  {"tukey", LossType::kTukey},
                                  {"welsch", LossType::kWelsch},
                                  {"geman_mcclure", LossType::kGemanMcClure}};
-
-std::vector<std::string> Split(const std::string& text, char separator) {
-  std::vector<std::string> pieces;
-  std::istringstream stream(text);
-  for (std::string piece; std::getline(stream, piece, separator);) pieces.push_back(piece);
-  return pieces;
-}
 
 Status SetParameter(const std::string& key, const std::string& value, EnergySpec* spec) {
   if (key == "loss") {
@@ -66,7 +61,8 @@ StatusOr<EnergySpec> ParseOne(const std::string& text) {
   }
   if (colon == std::string::npos) return spec;
   bool has_width = false;
-  for (const std::string& piece : Split(text.substr(colon + 1), ',')) {
+  for (const std::string_view setting : SplitLines(std::string_view(text).substr(colon + 1), ',')) {
+    const std::string piece(setting);
     const std::size_t equals = piece.find('=');
     if (equals == std::string::npos || equals == 0) {
       return Status::Error("energy '" + spec.name + "': '" + piece + "', expected param=value");
@@ -124,9 +120,9 @@ std::unique_ptr<ceres::LossFunction> MakeLoss(const LossSpec& spec) {
 
 StatusOr<std::vector<EnergySpec>> ParseEnergySpecs(const std::string& text) {
   std::vector<EnergySpec> specs;
-  for (const std::string& piece : Split(text, ';')) {
+  for (const std::string_view piece : SplitLines(text, ';')) {
     if (piece.empty()) continue;
-    StatusOr<EnergySpec> spec = ParseOne(piece);
+    StatusOr<EnergySpec> spec = ParseOne(std::string(piece));
     if (!spec.ok()) return spec.status();
     specs.push_back(*std::move(spec));
   }

@@ -1,12 +1,13 @@
 #include "ceres_ed/io/point_list_io.h"
 
 #include <ceres_ed/io/text.h>
+#include <ceres_ed/io/text_rows.h>
+#include <ceres_ed/util/text.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -15,51 +16,16 @@
 namespace ceres_ed {
 namespace {
 
-constexpr std::string_view kBlanks = " \t\r\v\f";
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view kHeader[] = {"source_index", "x", "y", "z"};
 
-std::string_view Trim(std::string_view text) {
-  const std::size_t begin = text.find_first_not_of(kBlanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
-}
-
-std::vector<std::string_view> SplitFields(std::string_view line) {
-  std::vector<std::string_view> fields;
-  while (true) {
-    const std::size_t comma = line.find(',');
-    fields.push_back(Trim(line.substr(0, comma)));
-    if (comma == std::string_view::npos) return fields;
-    line.remove_prefix(comma + 1);
-  }
+std::vector<std::string_view> TrimmedFields(std::string_view line) {
+  std::vector<std::string_view> fields = SplitFields(line, ',');
+  for (std::string_view& field : fields) field = Trim(field);
+  return fields;
 }
 
 std::string Place(const std::string& path, int line_number) {
   return path + ": line " + std::to_string(line_number) + ": ";
-}
-
-// Calls `read_line(line, line_number)` on every line that says something, without its comment,
-// until one is not ok.
-Status ForEachLine(const std::string& path,
-                   const std::function<Status(std::string_view, int)>& read_line) {
-  const StatusOr<std::string> contents = ReadWholeFile(path);
-  if (!contents.ok()) return contents.status();
-  std::string_view rest = *contents;
-  // Spreadsheets put one ahead of a CSV.
-  if (rest.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
-    rest.remove_prefix(kByteOrderMark.size());
-  }
-  for (int line_number = 1; !rest.empty(); ++line_number) {
-    const std::size_t length = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = rest.substr(0, length);
-    rest.remove_prefix(std::min(length + 1, rest.size()));
-    const std::string_view said = Trim(line.substr(0, line.find('#')));
-    if (said.empty()) continue;
-    Status status = read_line(said, line_number);
-    if (!status.ok()) return status;
-  }
-  return Status::Ok();
 }
 
 StatusOr<int> ParseIndex(const std::string& place, std::string_view text, int num_vertices) {
@@ -79,7 +45,7 @@ StatusOr<int> ParseIndex(const std::string& place, std::string_view text, int nu
 StatusOr<Landmark> ParseLandmark(const std::string& place,
                                  std::string_view line,
                                  int num_vertices) {
-  const std::vector<std::string_view> fields = SplitFields(line);
+  const std::vector<std::string_view> fields = TrimmedFields(line);
   if (fields.size() != 4) {
     return Status::Error(place + std::to_string(fields.size()) +
                          (fields.size() == 1 ? " field" : " fields") +
@@ -102,7 +68,7 @@ StatusOr<Landmark> ParseLandmark(const std::string& place,
 
 // Whether the row is a header; an error when it is one with other columns than ours.
 StatusOr<bool> IsHeader(const std::string& place, std::string_view line) {
-  const std::vector<std::string_view> fields = SplitFields(line);
+  const std::vector<std::string_view> fields = TrimmedFields(line);
   const bool has_number = std::any_of(fields.begin(), fields.end(), [](std::string_view field) {
     return ParseDouble(field).has_value();
   });
@@ -124,7 +90,7 @@ StatusOr<std::vector<Landmark>> ReadLandmarks(const std::string& path, int num_v
   };
   std::map<int, Seen> seen;
   bool is_first = true;
-  Status status = ForEachLine(path, [&](std::string_view line, int line_number) {
+  Status status = ForEachTextLine(path, [&](std::string_view line, int line_number) {
     const std::string place = Place(path, line_number);
     if (is_first) {
       is_first = false;
@@ -151,17 +117,12 @@ StatusOr<std::vector<Landmark>> ReadLandmarks(const std::string& path, int num_v
 }
 
 StatusOr<std::vector<int>> ReadVertexList(const std::string& path, int num_vertices) {
-  constexpr std::string_view kSeparators = ", \t\r\v\f";
   std::vector<int> indices;
-  Status status = ForEachLine(path, [&](std::string_view line, int line_number) {
-    std::size_t begin = line.find_first_not_of(kSeparators);
-    while (begin != std::string_view::npos) {
-      const std::size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
-      const StatusOr<int> index =
-          ParseIndex(Place(path, line_number), line.substr(begin, end - begin), num_vertices);
+  Status status = ForEachTextLine(path, [&](std::string_view line, int line_number) {
+    for (const std::string_view word : SplitWords(line, kFieldSeparators)) {
+      const StatusOr<int> index = ParseIndex(Place(path, line_number), word, num_vertices);
       if (!index.ok()) return index.status();
       indices.push_back(*index);
-      begin = line.find_first_not_of(kSeparators, end);
     }
     return Status::Ok();
   });

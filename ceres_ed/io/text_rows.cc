@@ -1,6 +1,7 @@
 #include "ceres_ed/io/text_rows.h"
 
 #include <ceres_ed/io/text.h>
+#include <ceres_ed/util/text.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,41 +13,40 @@
 namespace ceres_ed {
 namespace {
 
+// Spreadsheets put one ahead of a CSV.
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
-void SplitFields(std::string_view line, std::vector<std::string_view>* fields) {
-  constexpr std::string_view kSeparators = ", \t\r\v\f";
-  fields->clear();
-  std::size_t begin = line.find_first_not_of(kSeparators);
-  while (begin != std::string_view::npos) {
-    const std::size_t end = std::min(line.find_first_of(kSeparators, begin), line.size());
-    fields->push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kSeparators, end);
-  }
-}
 
 }  // namespace
 
-Status ForEachTextRow(const std::string& path,
-                      const std::function<Status(const TextRow&)>& read_row) {
+Status ForEachTextLine(
+    const std::string& path,
+    const std::function<Status(std::string_view line, int line_number)>& read_line) {
   const StatusOr<std::string> contents = ReadWholeFile(path);
   if (!contents.ok()) return contents.status();
   std::string_view rest = *contents;
   if (rest.substr(0, kByteOrderMark.size()) == kByteOrderMark) {
     rest.remove_prefix(kByteOrderMark.size());
   }
-  TextRow row;
-  for (int line_number = 1; !rest.empty(); ++line_number) {
-    const std::size_t length = std::min(rest.find('\n'), rest.size());
-    const std::string_view line = rest.substr(0, length);
-    rest.remove_prefix(std::min(length + 1, rest.size()));
-    SplitFields(line.substr(0, line.find('#')), &row.fields);
-    if (row.fields.empty()) continue;
-    row.place = path + ": line " + std::to_string(line_number) + ": ";
-    Status status = read_row(row);
+  int line_number = 0;
+  for (const std::string_view line : SplitLines(rest, '\n')) {
+    ++line_number;
+    const std::string_view text = Trim(line.substr(0, line.find('#')));
+    if (text.empty()) continue;
+    Status status = read_line(text, line_number);
     if (!status.ok()) return status;
   }
   return Status::Ok();
+}
+
+Status ForEachTextRow(const std::string& path,
+                      const std::function<Status(const TextRow&)>& read_row) {
+  return ForEachTextLine(path, [&](std::string_view line, int line_number) {
+    TextRow row;
+    row.fields = SplitWords(line, kFieldSeparators);
+    if (row.fields.empty()) return Status::Ok();
+    row.place = path + ": line " + std::to_string(line_number) + ": ";
+    return read_row(row);
+  });
 }
 
 StatusOr<double> ParseFinite(const std::string& place,

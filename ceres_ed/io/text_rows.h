@@ -12,6 +12,16 @@
 
 namespace ceres_ed {
 
+// What stands between the fields of a row.
+inline constexpr std::string_view kFieldSeparators = ", \t\r\v\f";
+
+// Returns ok when `read_line` was so on every line of the file that says something, else the first
+// error. Lines come without their comment, which begins with #, and without blanks at their ends;
+// the first line has number 1. A byte order mark is skipped, and CR LF ends a line as LF does.
+Status ForEachTextLine(
+    const std::string& path,
+    const std::function<Status(std::string_view line, int line_number)>& read_line);
+
 // A line of a file that says something.
 struct TextRow {
   // "FILE: line N: ", what an error begins with.

@@ -1,12 +1,13 @@
 #include "ceres_ed/plugin/plugin_loader.h"
 
 #include <ceres_ed/plugin/plugin_abi.h>
+#include <ceres_ed/util/text.h>
 
 #include <cerrno>
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <sstream>
+#include <string_view>
 #include <vector>
 
 #include <dlfcn.h>
@@ -30,22 +31,16 @@ Function* Find(void* library, const char* name) {
   return reinterpret_cast<Function*>(dlsym(library, name));
 }
 
-std::vector<std::string> SplitFields(const std::string& abi) {
-  std::vector<std::string> fields;
-  std::istringstream stream(abi);
-  for (std::string field; std::getline(stream, field, ';');) fields.push_back(field);
-  return fields;
-}
-
 // "Eigen 3.3.9 (here Eigen 3.4.0), ..." for every field that differs.
 std::string DescribeDifference(const std::string& theirs, const std::string& ours) {
-  const std::vector<std::string> there = SplitFields(theirs);
-  const std::vector<std::string> here = SplitFields(ours);
+  const std::vector<std::string_view> there = SplitLines(theirs, ';');
+  const std::vector<std::string_view> here = SplitLines(ours, ';');
   if (there.size() != here.size()) return "'" + theirs + "' (here '" + ours + "')";
   std::string text;
   for (std::size_t i = 0; i < here.size(); ++i) {
     if (there[i] == here[i]) continue;
-    text += (text.empty() ? "" : ", ") + there[i] + " (here " + here[i] + ")";
+    text +=
+        (text.empty() ? "" : ", ") + std::string(there[i]) + " (here " + std::string(here[i]) + ")";
   }
   return text;
 }
@@ -94,10 +89,9 @@ Status LoadPlugin(const std::string& path, EnergyRegistry* registry) {
 }
 
 Status LoadPlugins(const std::string& paths, EnergyRegistry* registry) {
-  std::istringstream stream(paths);
-  for (std::string path; std::getline(stream, path, ';');) {
+  for (const std::string_view path : SplitLines(paths, ';')) {
     if (path.empty()) continue;
-    if (Status status = LoadPlugin(path, registry); !status.ok()) return status;
+    if (Status status = LoadPlugin(std::string(path), registry); !status.ok()) return status;
   }
   return Status::Ok();
 }

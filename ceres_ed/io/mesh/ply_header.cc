@@ -1,6 +1,7 @@
 #include "ceres_ed/io/mesh/ply_header.h"
 
 #include <ceres_ed/io/text.h>
+#include <ceres_ed/util/text.h>
 
 #include <algorithm>
 #include <charconv>
@@ -66,17 +67,6 @@ std::optional<PlyType> TypeOf(std::string_view name) {
   return std::nullopt;
 }
 
-std::vector<std::string_view> SplitWords(std::string_view line) {
-  constexpr std::string_view kBlanks = " \t";
-  std::vector<std::string_view> words;
-  for (std::size_t begin = line.find_first_not_of(kBlanks); begin != std::string_view::npos;) {
-    const std::size_t end = std::min(line.find_first_of(kBlanks, begin), line.size());
-    words.push_back(line.substr(begin, end - begin));
-    begin = line.find_first_not_of(kBlanks, end);
-  }
-  return words;
-}
-
 // What stands behind the keyword and one blank, trailing blanks and all.
 std::string TextBehind(std::string_view line, std::string_view keyword) {
   const std::size_t begin =
@@ -119,7 +109,7 @@ class HeaderParser {
       header_.size = line_end + 1;
       ++header_.num_lines;
 
-      const std::vector<std::string_view> words = SplitWords(line);
+      const std::vector<std::string_view> words = SplitWords(line, " \t");
       if (header_.num_lines == 1) {
         if (words.size() != 1 || words[0] != "ply") return NotPlyError();
         continue;
