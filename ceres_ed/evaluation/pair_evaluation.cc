@@ -4,6 +4,7 @@
 #include <ceres_ed/geometry/closest_point.h>
 #include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/geometry/topology.h>
+#include <ceres_ed/geometry/triangle_area.h>
 
 #include <algorithm>
 #include <array>
@@ -100,11 +101,6 @@ std::vector<Eigen::Matrix3d> BestRotations(const PointCloud& source,
   return rotations;
 }
 
-Eigen::Vector3d AreaVector(const PointCloud& cloud, const std::array<int, 3>& t) {
-  const Eigen::Vector3d& a = cloud.points[t[0]];
-  return 0.5 * (cloud.points[t[1]] - a).cross(cloud.points[t[2]] - a);
-}
-
 // Normals weighted by triangle area, shared by points at one position: on a mangled result slivers
 // must not outvote sound triangles, as they can with weights by angle. The cloud's own normals
 // where it has no triangles; empty where there are neither.
@@ -115,7 +111,7 @@ std::vector<Eigen::Vector3d> NormalsOf(const PointCloud& cloud) {
   const std::vector<int> representative = WeldPoints(cloud.points);
   std::vector<Eigen::Vector3d> sums(cloud.size(), Eigen::Vector3d::Zero());
   for (const auto& t : cloud.triangles) {
-    const Eigen::Vector3d area = AreaVector(cloud, t);
+    const Eigen::Vector3d area = AreaVector(cloud.points, t);
     for (const int corner : t) sums[representative[corner]] += area;
   }
   std::vector<Eigen::Vector3d> normals;
@@ -244,8 +240,8 @@ ShapeChange MeasureShapeChange(const PointCloud& source, const PointCloud& resul
   if (triangles.empty()) return change;
   const std::vector<Eigen::Matrix3d> rotations = BestRotations(source, result, edges);
   for (const auto& t : triangles) {
-    const Eigen::Vector3d before = AreaVector(source, t);
-    const Eigen::Vector3d after = AreaVector(result, t);
+    const Eigen::Vector3d before = AreaVector(source.points, t);
+    const Eigen::Vector3d after = AreaVector(result.points, t);
     const Eigen::Vector3d expected = (rotations[t[0]] + rotations[t[1]] + rotations[t[2]]) * before;
     if (expected.dot(after) < 0.0) ++change.flipped;
     if (after.norm() < kDegenerateShare * before.norm()) ++change.degenerate;

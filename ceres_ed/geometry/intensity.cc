@@ -1,6 +1,7 @@
 #include "ceres_ed/geometry/intensity.h"
 
 #include <ceres_ed/geometry/kd_tree.h>
+#include <ceres_ed/geometry/triangle_area.h>
 
 #include <cmath>
 
@@ -29,7 +30,7 @@ std::vector<Eigen::Vector3d> MeshGradients(const PointCloud& cloud) {
     const Eigen::Vector3d gradient =
         GradientOnTriangle(a, b, c, {intensities[t[0]], intensities[t[1]], intensities[t[2]]});
     if (!gradient.allFinite()) continue;
-    const double area = (b - a).cross(c - a).norm();
+    const double area = AreaVector(a, b, c).norm();
     for (const int corner : t) {
       sums[corner] += area * gradient;
       areas[corner] += area;

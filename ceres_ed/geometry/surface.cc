@@ -1,6 +1,7 @@
 #include "ceres_ed/geometry/surface.h"
 
 #include <ceres_ed/geometry/normals.h>
+#include <ceres_ed/geometry/triangle_area.h>
 
 #include <algorithm>
 #include <cmath>
@@ -23,8 +24,7 @@ std::vector<double> RelativeAreas(const PointCloud& cloud) {
   std::vector<double> areas(cloud.size(), 0.0);
   double total = 0.0;
   for (const std::array<int, 3>& t : cloud.triangles) {
-    const Eigen::Vector3d& a = cloud.points[t[0]];
-    const double area = (cloud.points[t[1]] - a).cross(cloud.points[t[2]] - a).norm() / 6.0;
+    const double area = AreaVector(cloud.points, t).norm() / 3.0;
     for (const int corner : t) areas[corner] += area;
     total += 3.0 * area;
   }
@@ -37,8 +37,7 @@ std::vector<double> RelativeAreas(const PointCloud& cloud) {
 std::vector<double> Radii(const PointCloud& cloud) {
   std::vector<double> areas(cloud.size(), 0.0);
   for (const std::array<int, 3>& t : cloud.triangles) {
-    const Eigen::Vector3d& a = cloud.points[t[0]];
-    const double area = (cloud.points[t[1]] - a).cross(cloud.points[t[2]] - a).norm() / 6.0;
+    const double area = AreaVector(cloud.points, t).norm() / 3.0;
     for (const int corner : t) areas[corner] += area;
   }
   for (double& area : areas) area = std::sqrt(area / M_PI);

@@ -1,6 +1,7 @@
 #include "ceres_ed/geometry/welded_mesh.h"
 
 #include <ceres_ed/geometry/kd_tree.h>
+#include <ceres_ed/geometry/triangle_area.h>
 
 #include <algorithm>
 
@@ -131,7 +132,7 @@ std::vector<Eigen::Vector3d> WeldedNormals(const WeldedMesh& mesh,
                                            const std::vector<Eigen::Vector3d>& points) {
   std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
   for (const std::array<int, 3>& t : mesh.triangles) {
-    const Eigen::Vector3d area = (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
+    const Eigen::Vector3d area = AreaVector(points, t);
     for (const int corner : t) normals[corner] += area;
   }
   for (Eigen::Vector3d& normal : normals) {

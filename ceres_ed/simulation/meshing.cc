@@ -1,5 +1,6 @@
 #include "ceres_ed/simulation/meshing.h"
 
+#include <ceres_ed/geometry/triangle_area.h>
 #include <ceres_ed/simulation/remesher.h>
 
 #include <algorithm>
@@ -94,7 +95,7 @@ class TetrahedraMarcher {
 
   void AddTriangle(int a, int b, int c, const Eigen::Vector3d& outward) {
     const auto& p = mesh_.points;
-    if ((p[b] - p[a]).cross(p[c] - p[a]).dot(outward) < 0.0) std::swap(b, c);
+    if (AreaVector(p[a], p[b], p[c]).dot(outward) < 0.0) std::swap(b, c);
     mesh_.triangles.push_back({a, b, c});
   }
 
@@ -131,15 +132,6 @@ class TetrahedraMarcher {
   PointCloud mesh_;
 };
 
-double Area(const PointCloud& mesh) {
-  double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d& p = mesh.points[a];
-    area += 0.5 * (mesh.points[b] - p).cross(mesh.points[c] - p).norm();
-  }
-  return area;
-}
-
 }  // namespace
 
 PointCloud MarchTetrahedra(const SyntheticSolid& solid, double cell) {
@@ -150,7 +142,8 @@ PointCloud MarchTetrahedra(const SyntheticSolid& solid, double cell) {
 PointCloud RemeshUniformly(const PointCloud& mesh, const SyntheticSolid& solid, int vertices) {
   CHECK_GE(vertices, 100);
   // A vertex of an equilateral tiling with edge L owns an area of sqrt(3) / 2 L^2.
-  double edge = std::sqrt(Area(mesh) / vertices * 2.0 / std::sqrt(3.0));
+  double edge =
+      std::sqrt(SurfaceArea(mesh.points, mesh.triangles) / vertices * 2.0 / std::sqrt(3.0));
   SyntheticRemesher remesher(mesh, [&solid](const Eigen::Vector3d& p) { return solid.Project(p); });
   for (int stage = 0; stage < 4; ++stage) {
     for (int round = 0; round < 4; ++round) remesher.Round(edge);

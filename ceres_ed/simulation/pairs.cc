@@ -1,5 +1,6 @@
 #include "ceres_ed/simulation/pairs.h"
 
+#include <ceres_ed/geometry/triangle_area.h>
 #include <ceres_ed/simulation/deformations.h>
 #include <ceres_ed/simulation/views.h>
 
@@ -74,15 +75,6 @@ void Move(const Similarity& motion, PointCloud* cloud) {
   for (Eigen::Vector3d& point : cloud->points) point = motion * point;
 }
 
-double Area(const PointCloud& mesh) {
-  double area = 0.0;
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const Eigen::Vector3d& p = mesh.points[a];
-    area += 0.5 * (mesh.points[b] - p).cross(mesh.points[c] - p).norm();
-  }
-  return area;
-}
-
 // The tips of beak, dorsal fin and both halves of the fluke, each with the vertices close by: one
 // vertex alone would not say how its handle is turned.
 void AddHandles(SyntheticPair* pair) {
@@ -126,7 +118,8 @@ SyntheticPair Make(const Recipe& recipe) {
     SyntheticView view;
     view.eye = pair.size * Eigen::Vector3d(recipe.eye);
     pair.target = VisiblePart(whole, view);
-    pair.overlap = Area(pair.target) / Area(whole);
+    pair.overlap = SurfaceArea(pair.target.points, pair.target.triangles) /
+                   SurfaceArea(whole.points, whole.triangles);
     const std::vector<char> visible = VisibleVertices(pair.truth, view);
     for (std::size_t k = 0; k < visible.size(); ++k) {
       if (visible[k]) pair.visible.push_back(static_cast<int>(k));

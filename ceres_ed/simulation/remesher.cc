@@ -1,5 +1,7 @@
 #include "ceres_ed/simulation/remesher.h"
 
+#include <ceres_ed/geometry/triangle_area.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -95,10 +97,6 @@ int SyntheticRemesher::Opposite(int triangle, int a, int b) const {
   return t[0] + t[1] + t[2] - a - b;
 }
 
-Eigen::Vector3d SyntheticRemesher::AreaVector(const std::array<int, 3>& t) const {
-  return 0.5 * (points_[t[1]] - points_[t[0]]).cross(points_[t[2]] - points_[t[0]]);
-}
-
 void SyntheticRemesher::Split(double longest) {
   for (const auto& [a, b] : Edges()) {
     if (Length(a, b) <= longest) continue;
@@ -143,8 +141,8 @@ bool SyntheticRemesher::MayCollapse(int keep,
         corner[k] = triangle[k] == moved ? to : points_[triangle[k]];
         if (triangle[k] != moved && (corner[k] - to).norm() > longest) return false;
       }
-      const Eigen::Vector3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);
-      const Eigen::Vector3d before = AreaVector(triangle);
+      const Eigen::Vector3d normal = AreaVector(corner[0], corner[1], corner[2]);
+      const Eigen::Vector3d before = AreaVector(points_, triangle);
       if (normal.dot(before) <= 0.5 * normal.norm() * before.norm()) return false;
     }
   }
@@ -211,13 +209,14 @@ void SyntheticRemesher::Flip(bool delaunay) {
     std::array<int, 3> second = triangles_[sides[1]];
     Replace(&first, b, d);
     Replace(&second, a, c);
-    const Eigen::Vector3d sum = (AreaVector(triangles_[sides[0]]).normalized() +
-                                 AreaVector(triangles_[sides[1]]).normalized())
+    const Eigen::Vector3d sum = (AreaVector(points_, triangles_[sides[0]]).normalized() +
+                                 AreaVector(points_, triangles_[sides[1]]).normalized())
                                     .normalized();
-    const double least =
-        std::min(AreaVector(first).normalized().dot(sum), AreaVector(second).normalized().dot(sum));
+    const double least = std::min(AreaVector(points_, first).normalized().dot(sum),
+                                  AreaVector(points_, second).normalized().dot(sum));
     // Flipping across a ridge (a fin's edge) would cut it off.
-    if (least < 0.8 || AreaVector(triangles_[sides[0]]).normalized().dot(sum) < 0.8) continue;
+    if (least < 0.8 || AreaVector(points_, triangles_[sides[0]]).normalized().dot(sum) < 0.8)
+      continue;
     triangles_[sides[0]] = first;
     triangles_[sides[1]] = second;
     Erase(&around_[b], sides[0]);
@@ -236,7 +235,7 @@ void SyntheticRemesher::Relax() {
     double weight = 0.0;
     for (const int t : around_[v]) {
       const auto& triangle = triangles_[t];
-      const Eigen::Vector3d area = AreaVector(triangle);
+      const Eigen::Vector3d area = AreaVector(points_, triangle);
       normal += area;
       // Weights by area pull vertices toward sparse places and even out the sizes.
       centroid +=

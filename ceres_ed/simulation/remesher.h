@@ -41,7 +41,6 @@ class SyntheticRemesher {
   std::array<int, 2> Sides(int a, int b) const;
   int Opposite(int triangle, int a, int b) const;
   double Length(int a, int b) const { return (points_[a] - points_[b]).norm(); }
-  Eigen::Vector3d AreaVector(const std::array<int, 3>& triangle) const;
 
   void Split(double longest);
   void Collapse(double shortest, double longest);

@@ -1,5 +1,7 @@
 #include "ceres_ed/simulation/rendering.h"
 
+#include <ceres_ed/geometry/triangle_area.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -108,7 +110,7 @@ std::vector<Eigen::Vector3d> AreaWeightedNormals(const std::vector<Eigen::Vector
                                                  const std::vector<std::array<int, 3>>& triangles) {
   std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
   for (const auto& [a, b, c] : triangles) {
-    const Eigen::Vector3d normal = (points[b] - points[a]).cross(points[c] - points[a]);
+    const Eigen::Vector3d normal = AreaVector(points[a], points[b], points[c]);
     for (const int k : {a, b, c}) normals[k] += normal;
   }
   for (Eigen::Vector3d& normal : normals) normal = normal.normalized();

@@ -1,5 +1,6 @@
 #include "ceres_ed/simulation/views.h"
 
+#include <ceres_ed/geometry/triangle_area.h>
 #include <ceres_ed/util/random.h>
 
 #include <algorithm>
@@ -45,7 +46,7 @@ class Picture {
 
   bool Faces(const std::array<int, 3>& t) const {
     const Eigen::Vector3d& a = mesh_.points[t[0]];
-    const Eigen::Vector3d normal = (mesh_.points[t[1]] - a).cross(mesh_.points[t[2]] - a);
+    const Eigen::Vector3d normal = AreaVector(mesh_.points, t);
     return normal.dot(view_.parallel ? Eigen::Vector3d(-forward_)
                                      : Eigen::Vector3d(view_.eye - a)) > 0.0;
   }

@@ -1,5 +1,7 @@
 #include "ceres_ed/registration/finish/fold_guard.h"
 
+#include <ceres_ed/geometry/triangle_area.h>
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -16,11 +18,6 @@ constexpr double kMaxAreaRatio = 10.0;
 // How often a displacement is smoothed, then halved, before it is taken back as a whole.
 constexpr int kSmoothings = 8;
 constexpr int kHalvings = 6;
-
-Eigen::Vector3d AreaVector(const std::array<int, 3>& t,
-                           const std::vector<Eigen::Vector3d>& points) {
-  return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
-}
 
 bool IsBad(const Eigen::Vector3d& before, const Eigen::Vector3d& after) {
   const double area_before = before.norm();
@@ -43,16 +40,16 @@ Eigen::Vector3d Smoothed(const WeldedMesh& mesh,
   return 0.5 * (displacements[v] + mean);
 }
 
-// The vertices of those of `triangles` that turn over or change too much, each once.
-class FoldFinder {
+// Finds the vertices of triangles that turn over or change too much, each once.
+class DistortionFinder {
  public:
-  FoldFinder(const WeldedMesh& mesh,
-             const std::vector<Eigen::Vector3d>& start,
-             const std::vector<Eigen::Vector3d>& normals)
+  DistortionFinder(const WeldedMesh& mesh,
+                   const std::vector<Eigen::Vector3d>& start,
+                   const std::vector<Eigen::Vector3d>& normals)
       : mesh_(mesh), normals_(normals), is_hit_(start.size(), 0) {
     before_.reserve(mesh.triangles.size());
     for (const std::array<int, 3>& t : mesh.triangles) {
-      const Eigen::Vector3d area = AreaVector(t, start);
+      const Eigen::Vector3d area = AreaVector(start, t);
       const bool is_folded = area.dot(normals[t[0]] + normals[t[1]] + normals[t[2]]) < 0.0;
       before_.push_back(is_folded ? Eigen::Vector3d::Zero() : area);
     }
@@ -65,7 +62,7 @@ class FoldFinder {
       const Eigen::Vector3d& before = before_[t];
       const std::array<int, 3>& corners = mesh_.triangles[t];
       if (before.isZero(0.0)) continue;
-      const Eigen::Vector3d after = AreaVector(corners, points);
+      const Eigen::Vector3d after = AreaVector(points, corners);
       const Eigen::Vector3d should =
           normals_[corners[0]] + normals_[corners[1]] + normals_[corners[2]];
       // What was nearly folded may not turn the last bit.
@@ -95,7 +92,7 @@ int DampFolds(const WeldedMesh& mesh,
               const std::vector<Eigen::Vector3d>& start,
               const std::vector<Eigen::Vector3d>& normals,
               std::vector<Eigen::Vector3d>* points) {
-  FoldFinder finder(mesh, start, normals);
+  DistortionFinder finder(mesh, start, normals);
   std::vector<Eigen::Vector3d> displacements(start.size());
   for (std::size_t v = 0; v < start.size(); ++v) displacements[v] = (*points)[v] - start[v];
   std::vector<int> times(start.size(), 0);

@@ -1,5 +1,7 @@
 #include "ceres_ed/registration/finish/folded_faces.h"
 
+#include <ceres_ed/geometry/triangle_area.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,11 +19,6 @@ constexpr double kWholeShare = 0.2;
 // Below this the closed form loses too many digits: two singular values nearly cancel.
 constexpr double kMinDenominator = 1e-5;
 constexpr int kMaxNewtonSteps = 30;
-
-Eigen::Vector3d AreaVector(const std::array<int, 3>& t,
-                           const std::vector<Eigen::Vector3d>& points) {
-  return (points[t[1]] - points[t[0]]).cross(points[t[2]] - points[t[0]]);
-}
 
 Eigen::Matrix3d RotationBySvd(const Eigen::Matrix3d& B) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(B, Eigen::ComputeFullU | Eigen::ComputeFullV);
@@ -103,8 +100,8 @@ bool FoldFinder::IsSqueezed(int face, const std::vector<Eigen::Vector3d>& points
   for (const int corner : mesh_.triangles[face]) {
     for (int e = mesh_.around_offsets[corner]; e < mesh_.around_offsets[corner + 1]; ++e) {
       if (mesh_.around[e] == face) continue;
-      now += AreaVector(mesh_.triangles[mesh_.around[e]], points).norm();
-      before += AreaVector(mesh_.triangles[mesh_.around[e]], rest_).norm();
+      now += AreaVector(points, mesh_.triangles[mesh_.around[e]]).norm();
+      before += AreaVector(rest_, mesh_.triangles[mesh_.around[e]]).norm();
     }
   }
   return now > kWholeShare * before;
@@ -122,8 +119,8 @@ std::vector<int> FoldFinder::Find(const std::vector<int>& faces,
       stamps_[v] = stamp_;
       turn += rotations_[v];
     }
-    const Eigen::Vector3d before = AreaVector(t, rest_);
-    const Eigen::Vector3d now = AreaVector(t, points);
+    const Eigen::Vector3d before = AreaVector(rest_, t);
+    const Eigen::Vector3d now = AreaVector(points, t);
     const bool is_small =
         now.squaredNorm() < kSqueezedShare * kSqueezedShare * before.squaredNorm();
     if ((turn * before).dot(now) < 0.0 || (is_small && IsSqueezed(face, points))) {

@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/rigid/coarse_surface.h"
 
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/geometry/triangle_area.h>
 #include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
@@ -35,8 +36,7 @@ std::vector<Eigen::Vector3d> AreaVectors(const Surface& surface, int passes) {
   if (!cloud.HasTriangles()) return cloud.normals;
   std::vector<Eigen::Vector3d> areas(cloud.size(), Eigen::Vector3d::Zero());
   for (const std::array<int, 3>& t : cloud.triangles) {
-    const Eigen::Vector3d& a = cloud.points[t[0]];
-    const Eigen::Vector3d area = (cloud.points[t[1]] - a).cross(cloud.points[t[2]] - a);
+    const Eigen::Vector3d area = AreaVector(cloud.points, t);
     for (const int corner : t) areas[topology.representative[corner]] += area;
   }
   std::vector<Eigen::Vector3d> spread(areas.size());
