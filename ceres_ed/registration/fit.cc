@@ -124,6 +124,7 @@ class Fitter {
 void Fitter::PlaceRigidly() {
   const Timer timer;
   if (!options_.rigid_first || !input_.fixed_points.empty()) return;
+  if (options_.on_progress) options_.on_progress({"rigid", 0.0, 0, 0.0, 0.0});
   result_.rigid = PoseFromLandmarks(input_, options_.rigid.with_scale);
   if (!input_.target.empty()) {
     RigidOptions rigid = options_.rigid;

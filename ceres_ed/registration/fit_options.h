@@ -119,10 +119,11 @@ struct FitSchedule {
 };
 
 struct FitProgress {
-  // "rigid", "fit".
+  // "rigid" once before the source is placed; "fit" after each round of matching and solving.
   std::string stage;
   // In [0, 1].
   double fraction = 0.0;
+  // 0 while the stage is "rigid", as are the figures below.
   int inliers = 0;
   // Of the inliers, in the target's unit.
   double rms_plane = 0.0;
