@@ -122,32 +122,4 @@ NearestSeeds NearestSeedsAlongSurface(const SurfaceTopology& topology,
   return search.TakeResult();
 }
 
-std::vector<double> AlongSurfaceDistances(const SurfaceTopology& topology,
-                                          int seed_point,
-                                          double max_distance) {
-  CHECK(seed_point >= 0 && seed_point < topology.num_points()) << "seed at point " << seed_point;
-  std::vector<double> distances(topology.num_points(), kInfinity);
-  if (!(max_distance >= 0.0)) return distances;
-  const int start = topology.representative[seed_point];
-  distances[start] = 0.0;
-  std::vector<QueueEntry> queue = {{0.0, 0, start}};
-  while (!queue.empty()) {
-    std::pop_heap(queue.begin(), queue.end(), Farther());
-    const QueueEntry entry = queue.back();
-    queue.pop_back();
-    if (entry.distance > distances[entry.point]) continue;
-    for (const SurfaceLink& link : topology.Paths(entry.point)) {
-      const double distance = entry.distance + link.length;
-      if (distance > max_distance || distance >= distances[link.to]) continue;
-      distances[link.to] = distance;
-      queue.push_back({distance, 0, link.to});
-      std::push_heap(queue.begin(), queue.end(), Farther());
-    }
-  }
-  for (int p = 0; p < topology.num_points(); ++p) {
-    distances[p] = distances[topology.representative[p]];
-  }
-  return distances;
-}
-
 }  // namespace ceres_ed

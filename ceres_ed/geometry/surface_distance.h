@@ -5,7 +5,6 @@
 #include <ceres_ed/geometry/topology.h>
 
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 namespace ceres_ed {
@@ -35,13 +34,6 @@ NearestSeeds NearestSeedsAlongSurface(const SurfaceTopology& topology,
                                       const std::vector<int>& seed_points,
                                       int k,
                                       const std::vector<double>& offsets = {});
-
-// The distance of every point from `seed_point` along the surface; infinite where it is more than
-// `max_distance` or where there is no way.
-std::vector<double> AlongSurfaceDistances(
-    const SurfaceTopology& topology,
-    int seed_point,
-    double max_distance = std::numeric_limits<double>::infinity());
 
 }  // namespace ceres_ed
 

@@ -33,11 +33,6 @@ class AtomicFile::Buffer : public std::streambuf {
 
   int error() const { return error_; }
 
-  bool Sync() {
-    if (sync() == 0 && ::fsync(descriptor_) != 0) error_ = errno;
-    return error_ == 0;
-  }
-
   bool Close() {
     if (descriptor_ >= 0) {
       sync();
@@ -93,13 +88,11 @@ class AtomicFile::Buffer : public std::streambuf {
 
 AtomicFile::AtomicFile() = default;
 
-StatusOr<std::unique_ptr<AtomicFile>> AtomicFile::Create(const std::string& path,
-                                                         const AtomicFileOptions& options) {
+StatusOr<std::unique_ptr<AtomicFile>> AtomicFile::Create(const std::string& path) {
   if (path.empty()) return Status::Error("cannot write a file without a name");
   std::unique_ptr<AtomicFile> file(new AtomicFile);
   file->path_ = path;
   file->final_path_ = path;
-  file->options_ = options;
 
   std::error_code no_such_file;
   const std::filesystem::path resolved = std::filesystem::canonical(path, no_such_file);
@@ -142,9 +135,7 @@ AtomicFile::~AtomicFile() {
 std::ostream& AtomicFile::stream() { return *stream_; }
 
 Status AtomicFile::Commit() {
-  const bool synced = !options_.sync_to_disk || temporary_path_.empty() || buffer_->Sync();
-  const bool closed = buffer_->Close();
-  if (!synced || !closed) return WriteError(path_, buffer_->error());
+  if (!buffer_->Close()) return WriteError(path_, buffer_->error());
   // The caller may have set the stream's failure bits itself: then the contents are not complete.
   if (!stream_->good()) return Status::Error(path_ + ": cannot write: the contents are incomplete");
   if (temporary_path_.empty()) return Status::Ok();

@@ -11,19 +11,13 @@
 
 namespace ceres_ed {
 
-struct AtomicFileOptions {
-  // Waits on Commit() until the disk has the bytes: survives a power cut, costs milliseconds.
-  bool sync_to_disk = false;
-};
-
 // A file under construction. Bytes go to a temporary name in the same directory; Commit() renames
 // it to `path`, and the destructor removes it where there was no Commit(). A symbolic link is
 // followed; a device or pipe (/dev/stdout) is written to directly, for there is nothing to rename.
 class AtomicFile {
  public:
   // Returns the open file, or an error that names `path` and why it can't be written.
-  static StatusOr<std::unique_ptr<AtomicFile>> Create(const std::string& path,
-                                                      const AtomicFileOptions& options = {});
+  static StatusOr<std::unique_ptr<AtomicFile>> Create(const std::string& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
@@ -43,7 +37,6 @@ class AtomicFile {
   std::string final_path_;
   // Empty when the file is written to directly.
   std::string temporary_path_;
-  AtomicFileOptions options_;
   std::unique_ptr<Buffer> buffer_;
   std::unique_ptr<std::ostream> stream_;
 };

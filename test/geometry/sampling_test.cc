@@ -40,9 +40,13 @@ Radii MeasureInSpace(const std::vector<Eigen::Vector3d>& points, const std::vect
   });
 }
 
+std::vector<double> DistancesFrom(int point, const SurfaceTopology& topology) {
+  return NearestSeedsAlongSurface(topology, {point}, 1).distances;
+}
+
 Radii MeasureAlongSurface(const SurfaceTopology& topology, const std::vector<int>& samples) {
   std::vector<std::vector<double>> from;
-  for (const int sample : samples) from.push_back(AlongSurfaceDistances(topology, sample));
+  for (const int sample : samples) from.push_back(DistancesFrom(sample, topology));
   return Measure(topology.num_points(), samples, [&](std::size_t i, int p) { return from[i][p]; });
 }
 
@@ -140,7 +144,7 @@ TEST(FarthestPointSampleAlongSurface, EachSampleIsTheFarthestFromThoseBefore) {
     const std::vector<int> before(samples.begin(), samples.begin() + n);
     double nearest = std::numeric_limits<double>::infinity();
     for (const int p : before) {
-      nearest = std::min(nearest, AlongSurfaceDistances(topology, p)[samples[n]]);
+      nearest = std::min(nearest, DistancesFrom(p, topology)[samples[n]]);
     }
     EXPECT_NEAR(nearest, MeasureAlongSurface(topology, before).cover, 1e-13);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -36,38 +37,42 @@ PointCloud BumpyMesh() {
   return mesh;
 }
 
-TEST(AlongSurfaceDistances, EqualFloydWarshall) {
+// The distance of every point from one.
+std::vector<double> DistancesFrom(int point, const SurfaceTopology& topology) {
+  return NearestSeedsAlongSurface(topology, {point}, 1).distances;
+}
+
+TEST(NearestSeeds, OfOneSeedEqualFloydWarshall) {
   const SurfaceTopology topology = BuildTopology(BumpyMesh());
   const auto expected = AllDistances(topology);
   for (const int seed : {0, 17, 101}) {
-    const std::vector<double> distances = AlongSurfaceDistances(topology, seed);
+    const std::vector<double> distances = DistancesFrom(seed, topology);
     for (int p = 0; p < topology.num_points(); ++p) {
       EXPECT_NEAR(distances[p], expected[seed][p], 1e-13);
     }
   }
 }
 
-TEST(AlongSurfaceDistances, AreSymmetricUpToRounding) {
+TEST(NearestSeeds, HaveDistancesThatAreSymmetricUpToRounding) {
   const SurfaceTopology topology = BuildTopology(BumpyMesh());
-  const std::vector<double> from_3 = AlongSurfaceDistances(topology, 3);
+  const std::vector<double> from_3 = DistancesFrom(3, topology);
   for (int p = 0; p < topology.num_points(); ++p) {
-    EXPECT_NEAR(AlongSurfaceDistances(topology, p)[3], from_3[p], 1e-13);
+    EXPECT_NEAR(DistancesFrom(p, topology)[3], from_3[p], 1e-13);
   }
 }
 
-TEST(AlongSurfaceDistances, StopAtTheMaximumAndAtTheEndOfAComponent) {
+TEST(NearestSeeds, StopAtTheEndOfAComponent) {
   const PointCloud mesh = Append(MakeGridMesh(10, 1), MakeGridMesh(10, 2), {0, 100, 0});
   const SurfaceTopology topology = BuildTopology(mesh);
-  const std::vector<double> distances = AlongSurfaceDistances(topology, 10, 4.0);
+  const std::vector<double> distances = DistancesFrom(10, topology);
   EXPECT_DOUBLE_EQ(distances[14], 4.0);
-  EXPECT_TRUE(std::isinf(distances[15]));
   EXPECT_TRUE(std::isinf(distances[0]));
 }
 
-TEST(AlongSurfaceDistances, OnAPlaneAreAtMostAFewPercentTooLong) {
+TEST(NearestSeeds, HaveDistancesThatOnAPlaneAreAtMostAFewPercentTooLong) {
   const PointCloud mesh = MakeGridMesh(41, 41);
   const int center = 20 * 41 + 20;
-  const std::vector<double> distances = AlongSurfaceDistances(BuildTopology(mesh), center);
+  const std::vector<double> distances = DistancesFrom(center, BuildTopology(mesh));
   double worst = 0.0;
   for (std::size_t p = 0; p < mesh.size(); ++p) {
     const double exact = (mesh.points[p] - mesh.points[center]).norm();
@@ -78,9 +83,9 @@ TEST(AlongSurfaceDistances, OnAPlaneAreAtMostAFewPercentTooLong) {
   EXPECT_LT(worst, 0.083);
 }
 
-TEST(AlongSurfaceDistances, OnASphereAreWithinFivePercentOfGreatCircles) {
+TEST(NearestSeeds, HaveDistancesThatOnASphereAreWithinFivePercentOfGreatCircles) {
   const PointCloud mesh = MakeSphereMesh(4);
-  const std::vector<double> distances = AlongSurfaceDistances(BuildTopology(mesh), 0);
+  const std::vector<double> distances = DistancesFrom(0, BuildTopology(mesh));
   double worst = 0.0, mean = 0.0;
   for (std::size_t p = 1; p < mesh.size(); ++p) {
     const double exact =
@@ -103,7 +108,7 @@ TEST(NearestSeeds, EqualTheSingleSeedDistancesSorted) {
   const int k = 5;
   const NearestSeeds nearest = NearestSeedsAlongSurface(topology, seeds, k);
   std::vector<std::vector<double>> single;
-  for (const int seed : seeds) single.push_back(AlongSurfaceDistances(topology, seed));
+  for (const int seed : seeds) single.push_back(DistancesFrom(seed, topology));
   for (int p = 0; p < topology.num_points(); ++p) {
     std::vector<std::pair<double, int>> expected;
     for (int s = 0; s < static_cast<int>(seeds.size()); ++s) expected.push_back({single[s][p], s});

@@ -22,7 +22,7 @@ TEST(AtomicFile, HoldsWhatWasWrittenAfterCommit) {
   const std::string path = directory / "out.bin";
   // Longer than any buffer, with zero bytes, in pieces of many sizes.
   std::string expected;
-  StatusOr<std::unique_ptr<AtomicFile>> file = AtomicFile::Create(path, {/*sync_to_disk=*/true});
+  StatusOr<std::unique_ptr<AtomicFile>> file = AtomicFile::Create(path);
   ASSERT_TRUE(file.ok()) << file.status().message();
   for (std::size_t i = 0; i < 300; ++i) {
     const std::string piece(i * 7, static_cast<char>(i));

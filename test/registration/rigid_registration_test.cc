@@ -51,7 +51,6 @@ TEST_P(RigidRegistrationOfTurns, RecoversTheMotionOfACopy) {
       AlignRigid(Surface(body), Surface(Moved(truth, body)), Similarity(), RigidOptions());
   EXPECT_LT(LargestGap(truth, result.target_from_source, body), 1e-3);
   EXPECT_LT(result.score, 1e-6);
-  EXPECT_GT(result.initial_score, 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Degrees,

@@ -5,7 +5,6 @@
 #include <ceres_ed/linear_algebra/sparse_cholesky.h>
 #include <ceres_ed/registration/finish/finish_matching.h>
 #include <ceres_ed/registration/finish/fold_guard.h>
-#include <ceres_ed/util/timer.h>
 
 #include <algorithm>
 #include <cmath>
@@ -168,30 +167,22 @@ void Finisher::Conclude(const std::vector<FinishPair>& pairs) {
 }
 
 FinishResult Finisher::Run() {
-  const Timer clock;
-  Timer timer;
   result_.points = *input_.points;
   FinishMatcher matcher(*input_.source, mesh_, normals_, *input_.target, input_.matching);
   for (int round = 0; round < options_.rounds; ++round) {
-    timer.Restart();
     const std::vector<FinishPair> pairs = matcher.Match(points_, options_.loss_width);
-    result_.times.match += timer.Restart();
     if (round == 0) {
       result_.smoothing = Smoothing(matcher);
       if (pairs.empty() || result_.smoothing > options_.max_smoothing) return std::move(result_);
       PrepareSmoothness();
     }
     Factorize(pairs);
-    result_.times.factor += timer.Restart();
     for (int step = 0; step < options_.steps; ++step) Step(pairs);
-    result_.times.solve += timer.Restart();
     if (round + 1 == options_.rounds) Conclude(pairs);
   }
   for (std::size_t p = 0; p < result_.points.size(); ++p) {
     result_.points[p] = points_[mesh_.vertex_of_point[p]];
   }
-  result_.times.other =
-      clock.Seconds() - result_.times.match - result_.times.factor - result_.times.solve;
   return std::move(result_);
 }
 

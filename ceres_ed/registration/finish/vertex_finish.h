@@ -33,15 +33,6 @@ struct FinishInput {
   MatchingOptions matching;
 };
 
-// Seconds.
-struct FinishTimes {
-  double match = 0.0;
-  double factor = 0.0;
-  double solve = 0.0;
-  // Mesh, damping of faces that turned over, and all else.
-  double other = 0.0;
-};
-
 struct FinishResult {
   // One a point of the source; points at the same position move alike.
   std::vector<Eigen::Vector3d> points;
@@ -53,7 +44,6 @@ struct FinishResult {
   int pairs = 0;
   double rms_plane = 0.0;
   double rms_point = 0.0;
-  FinishTimes times;
 };
 
 // Returns the source's points displaced onto the target. Minimises over the displacements d

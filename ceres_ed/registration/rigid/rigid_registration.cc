@@ -174,7 +174,6 @@ RigidResult AlignRigid(const Surface& source,
   const StartFinder finder(source, target, initial, options);
   const RigidAligner coarse = finder.Aligner(kCoarseSamples);
   RigidResult result;
-  result.initial_score = fine.Score(initial).Total();
   ScoredPose best = Refined(coarse, initial, kCoarseIterations);
   result.starts_tried = 1;
   const bool stopped = options.should_stop && options.should_stop();

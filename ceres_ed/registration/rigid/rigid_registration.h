@@ -17,8 +17,6 @@ struct RigidResult {
   // target nearly all can be explained, of the whole source beside it little); 0 is a perfect fit.
   // RigidScore::Total over the points themselves.
   double score = 1.0;
-  // Of the pose that was given.
-  double initial_score = 1.0;
   // Poses that were refined, the given one included.
   int starts_tried = 0;
 };

@@ -146,7 +146,6 @@ CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
     result.deviation = association.deviation;
     result.inliers = static_cast<int>(
         std::count_if(association.matches.begin(), association.matches.end(), is_inlier));
-    result.inlier_ratio = static_cast<double>(result.inliers) / std::max(1, association.measured);
     if (iteration >= options.max_iterations || association.matches.size() < kFewestMatches) {
       return result;
     }

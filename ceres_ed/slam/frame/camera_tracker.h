@@ -32,10 +32,9 @@ struct CameraTrackerOptions {
 
 struct CameraTrackerResult {
   CameraPose camera_from_map;
-  // Of the points with a patch at their pixel, those within three deviations of it.
-  double inlier_ratio = 0.0;
-  int inliers = 0;
+  // The points with a patch at their pixel, and those of them within three deviations of it.
   int measured = 0;
+  int inliers = 0;
   // Spread of the distances to the planes, map units.
   double deviation = 0.0;
 };
