@@ -1,6 +1,7 @@
 #include "ceres_ed/solver/block_level_solver.h"
 
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
+#include <ceres_ed/solver/trust_region.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -12,11 +13,6 @@
 namespace ceres_ed {
 namespace {
 
-// Ceres' defaults for what SolverOptions leaves open.
-constexpr double kMinRelativeDecrease = 1e-3;
-constexpr double kMinTrustRegionRadius = 1e-32;
-constexpr double kMaxTrustRegionRadius = 1e16;
-constexpr int kMaxConsecutiveInvalidSteps = 5;
 // Damping of a parameter that nothing curves, relative to the mean of all.
 constexpr double kMinRelativeDiagonal = 1e-6;
 
@@ -63,7 +59,7 @@ class Minimizer {
         cholesky_(cholesky),
         values_(*values),
         state_(state),
-        radius_(options.initial_trust_region_radius) {}
+        region_(options.initial_trust_region_radius) {}
 
   void Run(LevelSummary* level, SolveSummary* summary);
 
@@ -73,10 +69,6 @@ class Minimizer {
   bool EvaluateEquations();
   Step TakeStep(bool last, bool explain);
   bool IsDone(int valid_steps, SolveSummary* summary) const;
-  void Shrink() {
-    radius_ /= decrease_factor_;
-    decrease_factor_ *= 2.0;
-  }
 
   const ProblemBuilder& builder_;
   const NormalEquations& equations_;
@@ -86,8 +78,7 @@ class Minimizer {
   std::vector<double>& values_;
   DeformationState* state_;
   const Timer timer_;
-  double radius_;
-  double decrease_factor_ = 2.0;
+  TrustRegion region_;
   double cost_ = 0.0;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;
@@ -112,7 +103,7 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   const int num_rows = structure_.num_primal_rows();
   const double floor = std::max(kMinRelativeDiagonal * diagonal_.head(num_rows).mean(), 1e-300);
   Eigen::VectorXd damping = Eigen::VectorXd::Zero(structure_.num_rows());
-  damping.head(num_rows) = diagonal_.head(num_rows).cwiseMax(floor) / radius_;
+  damping.head(num_rows) = diagonal_.head(num_rows).cwiseMax(floor) / region_.radius();
   if (!cholesky_->Factorize(values_.data(), damping, options_.num_threads)) return Step::kInvalid;
   Eigen::VectorXd delta = cholesky_->Solve(-gradient_);
   delta.tail(structure_.num_rows() - num_rows).setZero();
@@ -131,7 +122,7 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   const bool valid = equations_.EvaluateCost(*state_, options_.num_threads, &candidate_cost);
   const double decrease = cost_ - candidate_cost;
   const double quality = decrease / model_decrease;
-  if (!valid || !(quality > kMinRelativeDecrease)) {
+  if (!valid || !TrustRegion::Accepts(quality)) {
     if (!valid && explain) fault_ = builder_.CheckResiduals(*state_).message();
     before_.Restore(equations_, state_);
     return valid ? Step::kRejected : Step::kInvalid;
@@ -145,9 +136,7 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
     EvaluateEquations();
     return Step::kInvalid;
   }
-  radius_ = std::min(kMaxTrustRegionRadius,
-                     radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * quality - 1.0, 3)));
-  decrease_factor_ = 2.0;
+  region_.Grow(quality);
   return converged ? Step::kConverged : Step::kAccepted;
 }
 
@@ -170,7 +159,7 @@ bool Minimizer::IsDone(int valid_steps, SolveSummary* summary) const {
   if (options_.should_stop && options_.should_stop()) {
     return end(SolveStatus::kInterrupted, "interrupted");
   }
-  if (radius_ < kMinTrustRegionRadius) {
+  if (region_.IsTooSmall()) {
     return end(SolveStatus::kConverged, "trust region too small");
   }
   return false;
@@ -191,7 +180,7 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
   while (!IsDone(valid_steps, summary)) {
     ++level->iterations;
     const bool last = valid_steps + 1 == options_.max_iterations;
-    const Step step = TakeStep(last, invalid_steps + 1 == kMaxConsecutiveInvalidSteps);
+    const Step step = TakeStep(last, invalid_steps + 1 == TrustRegion::kMaxConsecutiveInvalidSteps);
     level->final_cost = cost_;
     if (step == Step::kConverged) {
       summary->status = SolveStatus::kConverged;
@@ -203,8 +192,8 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
       invalid_steps = 0;
       continue;
     }
-    Shrink();
-    if (step == Step::kInvalid && ++invalid_steps >= kMaxConsecutiveInvalidSteps) {
+    region_.Shrink();
+    if (step == Step::kInvalid && ++invalid_steps >= TrustRegion::kMaxConsecutiveInvalidSteps) {
       ExplainFailure(builder_, *state_, "no valid step could be made", summary);
       if (summary->fault.empty() && !fault_.empty()) {
         summary->fault = fault_;

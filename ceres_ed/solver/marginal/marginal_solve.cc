@@ -7,10 +7,6 @@
 namespace ceres_ed {
 namespace {
 
-constexpr double kMinRelativeDecrease = 1e-3;
-constexpr double kMinTrustRegionRadius = 1e-32;
-constexpr double kMaxTrustRegionRadius = 1e16;
-constexpr int kMaxConsecutiveInvalidSteps = 5;
 // The eliminated nodes are damped by this share of what Level I is, which is little more than
 // rounding. The soft modes of a large hidden part are far below the damping of a single node: batch
 // solves, which damp all alike, take many steps to follow them.
@@ -56,8 +52,8 @@ MarginalSolve::MarginalSolve(const MarginalProblem& problem,
       level_one_solver_(level_one_solver),
       marginalization_(marginalization),
       state_(state),
-      radius_(options_.initial_trust_region_radius),
-      least_damping_(kShareOfDamping / radius_),
+      region_(options_.initial_trust_region_radius),
+      least_damping_(kShareOfDamping / region_.radius()),
       damping_(least_damping_) {
   level_two_.num_variable_nodes = static_cast<int>(marginalization->eliminated_nodes().size());
 }
@@ -65,7 +61,8 @@ MarginalSolve::MarginalSolve(const MarginalProblem& problem,
 // Factorises; where hidden nodes hang on nothing, as an island does, damping has to hold them.
 bool MarginalSolve::Eliminate() {
   constexpr double kMostDamping = 1e3;
-  for (; damping_ <= kMostDamping; damping_ = std::max(1.0 / radius_, kMoreDamping * damping_)) {
+  for (; damping_ <= kMostDamping;
+       damping_ = std::max(1.0 / region_.radius(), kMoreDamping * damping_)) {
     if (marginalization_->Eliminate(damping_)) return true;
   }
   return false;
@@ -106,7 +103,7 @@ bool MarginalSolve::IsDone(SolveSummary* summary) const {
   if (options_.should_stop && options_.should_stop()) {
     return end(SolveStatus::kInterrupted, "interrupted");
   }
-  if (radius_ < kMinTrustRegionRadius) {
+  if (region_.IsTooSmall()) {
     return end(SolveStatus::kConverged, "trust region too small");
   }
   return false;
@@ -122,7 +119,7 @@ bool MarginalSolve::SolveLevelOne(DeformationState* candidate, SolveSummary* sum
   SolverOptions options = options_;
   options.max_iterations =
       std::min(level_one_steps_, options_.max_iterations - level_one_.iterations);
-  options.initial_trust_region_radius = radius_;
+  options.initial_trust_region_radius = region_.radius();
   options.time_limit_s = std::max(1e-3, options_.time_limit_s - problem_.timer->Seconds());
   // Asked ahead of every step.
   if (level_one_steps_ == 1) options.should_stop = nullptr;
@@ -200,7 +197,7 @@ MarginalSolve::Step MarginalSolve::Judge(double rest,
   const double predicted = energy_ - (rest + prior);
   const double decrease = energy_ - (rest + eliminated);
   const double quality = decrease / predicted;
-  if (!(predicted > 0.0) || !(quality > kMinRelativeDecrease)) {
+  if (!(predicted > 0.0) || !TrustRegion::Accepts(quality)) {
     // Where no more than the tolerance is promised there is nothing left to gain, unless damping
     // has made it so little.
     const double least = damping_ > least_damping_ ? kRounding : options_.function_tolerance;
@@ -214,14 +211,12 @@ MarginalSolve::Step MarginalSolve::Judge(double rest,
   is_prepared_ = false;
   damping_ = std::max(least_damping_, damping_ / kMoreDamping);
   if (LevelOneWasRefused()) {
-    Shrink();
+    region_.Shrink();
     return Step::kAccepted;
   }
   // More than one step has found its own radius.
   if (level_one_moved_ && level_one_steps_ == 1) {
-    radius_ = std::min(kMaxTrustRegionRadius,
-                       radius_ / std::max(1.0 / 3.0, 1.0 - std::pow(2.0 * quality - 1.0, 3)));
-    decrease_factor_ = 2.0;
+    region_.Grow(quality);
   }
   return std::abs(decrease) <= tolerance ? Step::kConverged : Step::kAccepted;
 }
@@ -231,12 +226,12 @@ MarginalSolve::Step MarginalSolve::Judge(double rest,
 void MarginalSolve::Refuse() {
   const Timer timer;
   if (LevelOneWasRefused()) {
-    Shrink();
+    region_.Shrink();
   } else if (!marginalization_->is_fresh()) {
     is_prepared_ = marginalization_->Linearize(*state_, options_.num_threads) && Eliminate();
   } else {
-    damping_ = std::max(1.0 / radius_, kMoreDamping * damping_);
-    Shrink();
+    damping_ = std::max(1.0 / region_.radius(), kMoreDamping * damping_);
+    region_.Shrink();
     is_prepared_ = Eliminate();
   }
   level_two_.solve_time_s += timer.Seconds();
@@ -257,7 +252,7 @@ void MarginalSolve::Iterate(SolveSummary* summary) {
       invalid_steps = 0;
       continue;
     }
-    if (step == Step::kInvalid && ++invalid_steps >= kMaxConsecutiveInvalidSteps) {
+    if (step == Step::kInvalid && ++invalid_steps >= TrustRegion::kMaxConsecutiveInvalidSteps) {
       summary->status = SolveStatus::kFailed;
       summary->message = "no valid step could be made";
       return;

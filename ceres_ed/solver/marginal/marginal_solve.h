@@ -6,6 +6,7 @@
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/solver/marginal/marginalization.h>
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/solver/trust_region.h>
 #include <ceres_ed/util/timer.h>
 
 #include <string>
@@ -58,10 +59,6 @@ class MarginalSolve {
   void Refuse();
   // The last step of Level I was none, and not for want of anything to gain.
   bool LevelOneWasRefused() const { return !level_one_moved_ && !level_one_converged_; }
-  void Shrink() {
-    radius_ /= decrease_factor_;
-    decrease_factor_ *= 2.0;
-  }
 
   const MarginalProblem& problem_;
   const SolverOptions& options_;
@@ -73,8 +70,7 @@ class MarginalSolve {
   LevelSummary level_one_;
   LevelSummary level_two_;
   // Of Level I.
-  double radius_;
-  double decrease_factor_ = 2.0;
+  TrustRegion region_;
   // Of the eliminated nodes.
   const double least_damping_;
   double damping_;
