@@ -2,26 +2,18 @@
 #ifndef CERES_ED_GRAPH_DEFORMATION_STATE_H_
 #define CERES_ED_GRAPH_DEFORMATION_STATE_H_
 
+#include <ceres_ed/geometry/rigid_transform.h>
 #include <ceres_ed/util/chunked_rows.h>
 
 #include <cstddef>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 #include <cost_functions/node_parameters.h>
 
 namespace ceres_ed {
 
-// camera_from_map: point_in_camera = rotation * point_in_map + translation (R_c, T_c of Eq. 1).
-struct CameraPose {
-  Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
-  // Map units.
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-
-  Eigen::Vector3d operator*(const Eigen::Vector3d& point_in_map) const {
-    return rotation * point_in_map + translation;
-  }
-};
+// camera_from_map: R_c and T_c of Eq. 1, in map units.
+using CameraPose = RigidTransform;
 
 // Node blocks (layout: cost_functions/node_parameters.h) and the camera. Adding nodes moves no
 // block that is there.

@@ -193,12 +193,10 @@ SyntheticFrame SyntheticSequence::Render(int frame, bool with_color) const {
   result.world_from_camera = scene_->WorldFromCamera(frame);
   result.mask = scene_->Mask(frame);
   const PointCloud patch = scene_->RestPatch(frame);
-  const Eigen::Quaterniond camera_from_world = result.world_from_camera.rotation.conjugate();
   std::vector<Eigen::Vector3d> points;
   points.reserve(patch.size());
   for (const Eigen::Vector3d& rest : patch.points) {
-    points.push_back(camera_from_world *
-                     (scene_->Deform(frame, rest) - result.world_from_camera.translation));
+    points.push_back(result.world_from_camera.ApplyInverse(scene_->Deform(frame, rest)));
   }
   SyntheticRaster raster = RasterizeMesh(points, patch.triangles, camera_);
   const Image<float> cosines = IncidenceCosines(

@@ -108,7 +108,7 @@ StatusOr<TrackedPoints> TrackedPoints::Bind(const std::vector<NamedPoint>& point
     if (nearest == nullptr || !(distance <= options.max_distance)) {
       return TooFar(named, distance * slam.unit(), options.max_distance * slam.unit());
     }
-    const Eigen::Vector3d place = pose.rotation.conjugate() * (in_camera - pose.translation);
+    const Eigen::Vector3d place = pose.ApplyInverse(in_camera);
     const Binding binding = binder.Bind(place, map.neighbors());
     const LocalWarp warp = map.WarpOf(binding);
     if (!warp.IsInvertible()) {

@@ -14,15 +14,6 @@ namespace {
 constexpr double kClearlyBetter = 1.2;
 constexpr double kLeastOfBefore = 0.4;
 
-CameraPose Compose(const CameraPose& a, const CameraPose& b) {
-  return {(a.rotation * b.rotation).normalized(), a.rotation * b.translation + a.translation};
-}
-
-CameraPose Inverse(const CameraPose& pose) {
-  const Eigen::Quaterniond back = pose.rotation.conjugate();
-  return {back, -(back * pose.translation)};
-}
-
 double VisibleArea(const ObservedSurface& surface) {
   double area = 0.0;
   for (int j = 0; j < surface.height(); ++j) {
@@ -115,14 +106,14 @@ CameraPose Tracker::Predict(const SlamFrame& frame) const {
   const CameraPose& before = map_.state().camera_from_map;
   switch (options_.camera) {
     case CameraMode::kEstimate:
-      return Compose(camera_step_, before);
+      return camera_step_ * before;
     case CameraMode::kFixed:
       return before;
     case CameraMode::kGiven:
       break;
   }
   if (frame.world_from_camera == nullptr) return before;
-  CameraPose pose = Compose(Inverse(*frame.world_from_camera), world_from_map_);
+  CameraPose pose = frame.world_from_camera->Inverse() * world_from_map_;
   pose.translation /= unit_;
   return pose;
 }
@@ -167,7 +158,7 @@ bool Tracker::FindCamera(const SlamFrame& frame,
   }
   report->times.camera += timer.Restart();
   const bool jumped = report->status == FrameStatus::kRelocalized;
-  camera_step_ = jumped ? CameraPose() : Compose(found, Inverse(before));
+  camera_step_ = jumped ? CameraPose() : found * before.Inverse();
   map_.SetCamera(found);
   return true;
 }

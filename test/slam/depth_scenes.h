@@ -22,13 +22,6 @@ constexpr double kFloatRounding = 6e-8;
 // A field of view of 67 by 53 degrees.
 inline PinholeCamera SmallCamera() { return {120.0, 120.0, 79.5, 59.5, 160, 120}; }
 
-inline CameraPose Inverse(const CameraPose& pose) {
-  CameraPose inverse;
-  inverse.rotation = pose.rotation.conjugate();
-  inverse.translation = -(inverse.rotation * pose.translation);
-  return inverse;
-}
-
 // A turn by `angle` radians about `axis`, then a shift.
 inline CameraPose Motion(double angle,
                          const Eigen::Vector3d& axis,
@@ -85,7 +78,7 @@ struct HillScene {
   }
 
   double operator()(const Eigen::Vector3d& ray) const {
-    const CameraPose map_from_camera = Inverse(camera_from_map);
+    const CameraPose map_from_camera = camera_from_map.Inverse();
     const Eigen::Vector3d d = map_from_camera.rotation * ray;
     double z = depth;
     for (int k = 0; k < 60; ++k) {
@@ -102,7 +95,7 @@ inline VisiblePoint MakeVisible(const PinholeCamera& camera,
                                 const CameraPose& camera_from_map,
                                 const Eigen::Vector3d& in_camera,
                                 const Eigen::Vector3d& normal_in_camera) {
-  const CameraPose map_from_camera = Inverse(camera_from_map);
+  const CameraPose map_from_camera = camera_from_map.Inverse();
   VisiblePoint point;
   point.in_map = map_from_camera * in_camera;
   point.normal_in_map = map_from_camera.rotation * normal_in_camera;

@@ -67,9 +67,7 @@ TEST(Relocalization, FindsTheCameraAgain) {
       Relocalize(slam->map(), surface, lost, VisibilityOptions(), PoseQualityOptions());
   EXPECT_FALSE(PoseQualityOptions().Doubts(found.quality));
   // A smooth body may slide along itself a little: a tenth of a node spacing, of some eight across.
-  const Eigen::Vector3d center =
-      truth.rotation.conjugate() *
-      (Eigen::Vector3d(0.0, 0.0, MiddleDepth(surface)) - truth.translation);
+  const Eigen::Vector3d center = truth.ApplyInverse({0.0, 0.0, MiddleDepth(surface)});
   EXPECT_LT((found.camera_from_map * center - truth * center).norm(), 0.1);
   EXPECT_LT(found.camera_from_map.rotation.angularDistance(truth.rotation), 2.0 * M_PI / 180.0);
 }

@@ -110,8 +110,7 @@ void FeaturePoints::Replenish(const ObservedSurface& surface, const DeformableMa
     Feature f;
     f.pixel = pixel;
     if (!OnSurface(surface, pixel, &f.in_camera)) continue;
-    const Eigen::Vector3d place =
-        camera_from_map.rotation.conjugate() * (f.in_camera - camera_from_map.translation);
+    const Eigen::Vector3d place = camera_from_map.ApplyInverse(f.in_camera);
     if (binder.DistanceTo(place) > 1.5) continue;
     const Binding binding = binder.Bind(place, map.neighbors());
     const LocalWarp warp = map.WarpOf(binding);

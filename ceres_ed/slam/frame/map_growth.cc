@@ -70,7 +70,7 @@ std::vector<Candidate> FindCandidates(const std::vector<VisiblePoint>& visible,
       coverage.Add(pixel, patch.point.z());
       Candidate candidate;
       candidate.in_camera = patch.point;
-      candidate.in_map = map_from_camera * (patch.point - camera_from_map.translation);
+      candidate.in_map = camera_from_map.ApplyInverse(patch.point);
       candidate.normal_in_map = map_from_camera * patch.normal;
       candidate.color = color.empty() ? MapPoint().color
                                       : color(static_cast<int>(pixel.x() + 0.5),

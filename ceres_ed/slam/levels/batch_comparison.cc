@@ -48,9 +48,7 @@ BatchComparison BatchReference::Compare(const FrameObservations& observations,
   constexpr double kDegreesPerRadian = 180.0 / M_PI;
   comparison.camera_deg = kDegreesPerRadian * ours.rotation.angularDistance(batch.rotation);
   // Of the places where the two cameras are.
-  comparison.camera_distance = (ours.rotation.conjugate() * ours.translation -
-                                batch.rotation.conjugate() * batch.translation)
-                                   .norm();
+  comparison.camera_distance = (ours.Inverse().translation - batch.Inverse().translation).norm();
   return comparison;
 }
 
