@@ -23,7 +23,7 @@ class BoundPoint {
              const PositionOfNode& position_of_node)
       : num_nodes_(num_nodes) {
     for (int i = 0; i < num_nodes; ++i) {
-      const Eigen::Vector3d g = position_of_node(i);
+      const Eigen::Vector3d& g = position_of_node(i);
       weights_[i] = weights[i];
       offsets_[i] = point - g;
       anchor_ += weights[i] * g;

@@ -168,7 +168,7 @@ std::vector<int> FarthestPointSample(const std::vector<Eigen::Vector3d>& points,
   while (!walk_order.empty() && static_cast<int>(samples.size()) < options.max_count &&
          squared[farthest] > 0.0 && squared[farthest] >= squared_spacing) {
     samples.push_back(walk_order[farthest]);
-    const Eigen::Vector3d sample = points[samples.back()];
+    const Eigen::Vector3d& sample = points[samples.back()];
     farthest = 0;
     for (std::size_t i = 0; i < walk_order.size(); ++i) {
       squared[i] = std::min(squared[i], (points[walk_order[i]] - sample).squaredNorm());

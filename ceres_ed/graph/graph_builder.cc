@@ -128,8 +128,7 @@ Status CheckInput(const PointCloud& cloud,
   if (!options.IsValid(&error)) return Status::Error("bad graph options: " + error);
   if (cloud.empty()) return Status::Error("cannot build a graph on a cloud without points");
   CHECK_EQ(cloud.size(), topology.representative.size()) << "the topology is of another cloud";
-  const Status finite = CheckFinite(cloud);
-  if (!finite.ok()) return finite;
+  if (Status finite = CheckFinite(cloud); !finite.ok()) return finite;
   const int num_positions = static_cast<int>(topology.walk_order.size());
   if (num_positions < 2) {
     return Status::Error(Sentence(
@@ -197,7 +196,7 @@ bool GraphOptions::IsValid(std::string* error) const {
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
                                 const SurfaceTopology& topology,
                                 const GraphOptions& options) {
-  const Status status = CheckInput(cloud, topology, options);
+  Status status = CheckInput(cloud, topology, options);
   if (!status.ok()) return status;
   BuiltGraph built;
   const SamplingPlan plan{
@@ -234,8 +233,7 @@ StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
 
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud, const GraphOptions& options) {
   // Before the topology, which sorts the points.
-  const Status finite = CheckFinite(cloud);
-  if (!finite.ok()) return finite;
+  if (Status finite = CheckFinite(cloud); !finite.ok()) return finite;
   return BuildGraph(cloud, BuildTopology(cloud), options);
 }
 

@@ -120,8 +120,7 @@ void WarpNormals(const DeformationState& state,
 }
 
 Status ApplyWarp(const Warp& warp, PointCloud* cloud, int num_threads) {
-  const Status status = CheckWarp(warp);
-  if (!status.ok()) return status;
+  if (Status status = CheckWarp(warp); !status.ok()) return status;
   BindingOptions binding = warp.binding;
   binding.num_threads = num_threads;
   const StatusOr<Skinning> skinning = BindCloudToGraph(*cloud, warp.graph, binding);
@@ -130,8 +129,7 @@ Status ApplyWarp(const Warp& warp, PointCloud* cloud, int num_threads) {
 }
 
 Status ApplyWarp(const Warp& warp, const Skinning& skinning, PointCloud* cloud, int num_threads) {
-  const Status status = CheckWarp(warp);
-  if (!status.ok()) return status;
+  if (Status status = CheckWarp(warp); !status.ok()) return status;
   if (skinning.size() != cloud->size()) {
     return Status::Error("the binding is of " + std::to_string(skinning.size()) +
                          " points, but the cloud has " + std::to_string(cloud->size()));

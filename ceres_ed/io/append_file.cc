@@ -1,7 +1,8 @@
 #include "ceres_ed/io/append_file.h"
 
+#include <ceres_ed/io/text.h>
+
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include <fcntl.h>
@@ -10,13 +11,6 @@
 #include <unistd.h>
 
 namespace ceres_ed {
-namespace {
-
-Status WriteError(const std::string& path) {
-  return Status::Error(path + ": cannot write: " + std::strerror(errno));
-}
-
-}  // namespace
 
 AppendFile::~AppendFile() {
   if (is_open()) ::close(descriptor_);
@@ -35,7 +29,7 @@ StatusOr<AppendFile> AppendFile::Create(const std::string& path) {
   AppendFile file;
   file.path_ = path;
   file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-  if (!file.is_open()) return WriteError(path);
+  if (!file.is_open()) return WriteError(path, errno);
   return file;
 }
 
@@ -44,13 +38,13 @@ StatusOr<AppendFile> AppendFile::Reopen(const std::string& path, std::int64_t si
   file.path_ = path;
   file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   struct stat info;
-  if (!file.is_open() || ::fstat(file.descriptor_, &info) != 0) return WriteError(path);
+  if (!file.is_open() || ::fstat(file.descriptor_, &info) != 0) return WriteError(path, errno);
   if (info.st_size < size) {
     return Status::Error(path + ": has " + std::to_string(info.st_size) + " bytes, expected the " +
                          std::to_string(size) + " that were there before");
   }
   if (::ftruncate(file.descriptor_, size) != 0 || ::lseek(file.descriptor_, 0, SEEK_END) != size) {
-    return WriteError(path);
+    return WriteError(path, errno);
   }
   file.size_ = size;
   return file;
@@ -61,7 +55,7 @@ Status AppendFile::Append(std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(descriptor_, text.data(), text.size());
     if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return WriteError(path_);
+    if (written < 0) return WriteError(path_, errno);
     text.remove_prefix(static_cast<std::size_t>(written));
     size_ += written;
   }

@@ -1,5 +1,7 @@
 #include "ceres_ed/io/atomic_file.h"
 
+#include <ceres_ed/io/text.h>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -18,10 +20,6 @@ namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
 constexpr int kMaxNameAttempts = 1000;
-
-Status WriteError(const std::string& path, int error) {
-  return Status::Error(path + ": cannot write: " + std::strerror(error));
-}
 
 }  // namespace
 

@@ -100,7 +100,7 @@ Status AppendPose(const std::string& path,
 StatusOr<CameraFile> ReadCameraFile(const std::string& path) {
   double values[kNumCameraFields];
   std::size_t count = 0;
-  const Status status = ForEachTextRow(path, [&](const TextRow& row) {
+  Status status = ForEachTextRow(path, [&](const TextRow& row) {
     for (const std::string_view field : row.fields) {
       if (count == kNumCameraFields) {
         return Status::Error(row.place + Quoted(field) + " behind the seventh number, expected " +
@@ -156,7 +156,7 @@ Status WriteCameraFile(const std::string& path, const CameraFile& file) {
 StatusOr<std::vector<FramePose>> ReadPosesFile(const std::string& path) {
   std::vector<FramePose> poses;
   std::set<int> frames;
-  const Status status = ForEachTextRow(path, [&](const TextRow& row) {
+  Status status = ForEachTextRow(path, [&](const TextRow& row) {
     const StatusOr<int> frame = ParseNatural(row.place, "frame", row.fields[0]);
     if (!frame.ok()) return frame.status();
     const StatusOr<CameraPose> pose = ParsePose(row, "frame");
@@ -183,7 +183,7 @@ Status WritePosesFile(const std::string& path, const std::vector<FramePose>& pos
 
 StatusOr<std::vector<TimedPose>> ReadTrajectory(const std::string& path) {
   std::vector<TimedPose> poses;
-  const Status status = ForEachTextRow(path, [&](const TextRow& row) {
+  Status status = ForEachTextRow(path, [&](const TextRow& row) {
     const StatusOr<double> time_s = ParseFinite(row.place, "timestamp", row.fields[0]);
     if (!time_s.ok()) return time_s.status();
     const StatusOr<CameraPose> pose = ParsePose(row, "timestamp");

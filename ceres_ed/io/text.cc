@@ -2,7 +2,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <system_error>
@@ -33,12 +32,19 @@ std::optional<double> ParseDouble(std::string_view text) {
   return value;
 }
 
+Status ReadError(const std::string& path, int error) {
+  return Status::Error(path + ": cannot read: " + std::generic_category().message(error));
+}
+
+Status WriteError(const std::string& path, int error) {
+  return Status::Error(path + ": cannot write: " + std::generic_category().message(error));
+}
+
 StatusOr<std::size_t> OpenRegularFile(const std::string& path, std::ifstream* file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (error || !std::filesystem::exists(status)) {
-    return Status::Error(
-        path + ": cannot read: " + (error ? error.message() : std::string(std::strerror(ENOENT))));
+    return ReadError(path, error ? error.value() : ENOENT);
   }
   if (std::filesystem::is_directory(status)) {
     return Status::Error(path + ": is a directory, expected a file");
@@ -48,9 +54,9 @@ StatusOr<std::size_t> OpenRegularFile(const std::string& path, std::ifstream* fi
   }
   errno = 0;
   file->open(path, std::ios::binary);
-  if (!*file) return Status::Error(path + ": cannot read: " + std::strerror(errno));
+  if (!*file) return ReadError(path, errno);
   const std::uintmax_t size = std::filesystem::file_size(path, error);
-  if (error) return Status::Error(path + ": cannot read: " + error.message());
+  if (error) return ReadError(path, error.value());
   return static_cast<std::size_t>(size);
 }
 

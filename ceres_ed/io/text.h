@@ -24,6 +24,11 @@ inline std::string Quoted(std::string_view text) {
 // locale. A magnitude beyond the range of double becomes infinite or 0, with its sign.
 std::optional<double> ParseDouble(std::string_view text);
 
+// "PATH: cannot read: ..." and "PATH: cannot write: ..." with the system's reason for `error`, a
+// value of errno.
+Status ReadError(const std::string& path, int error);
+Status WriteError(const std::string& path, int error);
+
 // The whole file, or an error with the system's reason. A directory, device or pipe is an error.
 StatusOr<std::string> ReadWholeFile(const std::string& path);
 

@@ -120,7 +120,7 @@ Eigen::VectorXd BlockCholesky::SolveUpper(const Eigen::VectorXd& rhs) {
 
 Eigen::MatrixXd BlockCholesky::TrailingFactor() const {
   if (impl_->num_trailing_rows == 0) return {};
-  const Eigen::MatrixXd trailing = impl_->factor.LastTriangle();
+  Eigen::MatrixXd trailing = impl_->factor.LastTriangle();
   CHECK_EQ(trailing.rows(), impl_->num_trailing_rows);
   return trailing;
 }

@@ -37,7 +37,8 @@ void WishForLargePages(void* data, std::size_t bytes) {
   const std::uintptr_t first = RoundUp(begin, kLargePage);
   const std::uintptr_t last = (begin + bytes) / kLargePage * kLargePage;
   if (first >= last) return;
-  static_cast<void>(madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE));
+  char* const pages = static_cast<char*>(data) + (first - begin);
+  static_cast<void>(madvise(pages, last - first, MADV_HUGEPAGE));
 #else
   static_cast<void>(data);
   static_cast<void>(bytes);

@@ -65,8 +65,10 @@ CERES_ED_INLINE void MultiplyTile(int depth,
   }
 }
 
-// The same for any number of rows that is a multiple of kRowUnit, and `columns` <= kRowUnit.
+// The same for any number of rows that is a multiple of kRowUnit, and `columns` <= kRowUnit. It has
+// the nine arguments that a product of matrices has in BLAS.
 template <int kLanes, int kVectors, int kColumns, bool kOverwrite>
+// NOLINTNEXTLINE(readability-function-size)
 CERES_ED_INLINE void MultiplyStrip(int rows,
                                    int depth,
                                    const double* A,
@@ -257,6 +259,7 @@ struct Kernels {
 };
 
 // `LANES` doubles a vector, tiles of `VECTORS` by `COLUMNS`: as many as there are registers.
+// NOLINTBEGIN(bugprone-macro-parentheses): NAME is part of names, and TARGET an attribute.
 #define CERES_ED_DEFINE_KERNELS(NAME, TEXT, TARGET, LANES, VECTORS, COLUMNS)          \
   TARGET bool NAME##Panel(int width, int rows, int stride, double* panel) {           \
     return Panel<LANES, VECTORS, COLUMNS>(width, rows, stride, panel);                \
@@ -278,6 +281,7 @@ struct Kernels {
   }                                                                                   \
   constexpr Kernels k##NAME = {                                                       \
       TEXT, NAME##Panel, NAME##OuterProduct, NAME##Product, NAME##TransposedProduct};
+// NOLINTEND(bugprone-macro-parentheses)
 
 CERES_ED_DEFINE_KERNELS(Plain, "plain", , 2, 2, 4)
 #ifdef CERES_ED_HAVE_X86_TARGETS

@@ -201,7 +201,7 @@ void Planner::PlaceUpdatesOf(const std::vector<int>& fronts) {
     return static_cast<std::size_t>(place.update_stride) * place.padded_update_rows;
   };
   for (const int f : fronts) {
-    const int stack = parity[f];
+    const std::size_t stack = parity[f] == 0 ? 0 : 1;
     const int parent = fronts_[f].parent;
     FrontLayout& place = layout_.fronts[f];
     // What another task takes stays where nothing overwrites it.

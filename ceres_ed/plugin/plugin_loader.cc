@@ -8,6 +8,7 @@
 #include <exception>
 #include <fstream>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <dlfcn.h>
@@ -79,7 +80,8 @@ Status RegisterFrom(void* library, const std::string& path, EnergyRegistry* regi
 
 Status LoadPlugin(const std::string& path, EnergyRegistry* registry) {
   CHECK(registry != nullptr);
-  if (!std::ifstream(path)) return Error(path, std::string("cannot be read: ") + strerror(errno));
+  if (!std::ifstream(path))
+    return Error(path, "cannot be read: " + std::generic_category().message(errno));
   // dlopen looks for a bare name in the system's folders only.
   const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);

@@ -36,7 +36,7 @@ std::string FindFault(const ceres::CostFunction& cost, const std::vector<const d
     pointers.push_back(jacobians.back().data());
   }
   bool valid = false;
-  const std::string thrown = DescribeThrow(
+  std::string thrown = DescribeThrow(
       [&] { valid = cost.Evaluate(blocks.data(), residuals.data(), pointers.data()); });
   if (!thrown.empty()) return thrown;
   if (!valid) return "says that it can't be evaluated";
@@ -55,6 +55,7 @@ Status ProblemBuilder::CheckResidual(const Term& term,
   const Residual& residual = term.residuals[index];
   const SelectedResidual selected = term.Selected(residual);
   std::vector<const double*> blocks;
+  blocks.reserve(residual.num_blocks);
   for (int i = 0; i < residual.num_blocks; ++i) {
     blocks.push_back(BlockPointer(state, selected.blocks[i]));
   }

@@ -82,7 +82,7 @@ py::object Apply(const Warp& warp,
     return ApplyWarp(warp, &cloud, threads);
   };
   ThrowUnlessOk(apply());
-  const py::array warped = OwnedView(std::move(cloud.points));
+  py::array warped = OwnedView(std::move(cloud.points));
   if (normals.is_none()) return warped;
   return py::make_tuple(warped, OwnedView(std::move(cloud.normals)));
 }

@@ -106,7 +106,7 @@ SolveSummary NonrigidLoop::Solve(int max_iterations) {
   options.num_threads = options_.num_threads;
   options.time_limit_s = std::max(1e-3, options_.time_limit_s - clock_.Seconds());
   options.should_stop = options_.should_stop;
-  const SolveSummary summary = strategy_->Solve(problem_->builder(), options, state_);
+  SolveSummary summary = strategy_->Solve(problem_->builder(), options, state_);
   for (std::size_t i = 0; i < summary.levels.size(); ++i) {
     const LevelSummary& level = summary.levels[i];
     result_->times.build += level.build_time_s;

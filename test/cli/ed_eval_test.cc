@@ -23,7 +23,7 @@ std::string WriteSquare(const std::string& name, double height) {
   PointCloud square;
   square.points = {{0, 0, height}, {2, 0, height}, {2, 2, height}, {0, 2, height}};
   square.triangles = {{0, 1, 2}, {0, 2, 3}};
-  const std::string path = TempPath(name);
+  std::string path = TempPath(name);
   CloudWriteOptions options;
   options.double_precision = true;
   EXPECT_TRUE(WriteCloud(path, square, options).ok());

@@ -41,7 +41,7 @@ bool HasPinholeZeros(const Eigen::Matrix3d& matrix) {
 StatusOr<PinholeCamera> ReadIntrinsics(const std::string& path) {
   Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
   Eigen::Index num_rows = 0;
-  const Status status = ForEachTextRow(path, [&](const TextRow& row) {
+  Status status = ForEachTextRow(path, [&](const TextRow& row) {
     if (num_rows == 3) {
       return Status::Error(row.place + "a fourth row, expected 3 rows of 3 or 4 numbers");
     }

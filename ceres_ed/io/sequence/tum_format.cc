@@ -30,7 +30,7 @@ struct TimedFile {
 StatusOr<std::vector<TimedFile>> ReadFileList(const std::string& directory, const char* name) {
   const std::string path = JoinPath(directory, name);
   std::vector<TimedFile> files;
-  const Status status = ForEachTextRow(path, [&](const TextRow& row) {
+  Status status = ForEachTextRow(path, [&](const TextRow& row) {
     if (row.fields.size() != 2) {
       return Status::Error(row.place + std::to_string(row.fields.size()) +
                            (row.fields.size() == 1 ? " field" : " fields") +

@@ -124,6 +124,7 @@ std::vector<OrientedPoint> Pick(const CoarseSurface& surface,
                                 double scale,
                                 const std::vector<int>& indices) {
   std::vector<OrientedPoint> picked;
+  picked.reserve(indices.size());
   for (const int index : indices) {
     picked.push_back({scale * surface.points()[index], surface.normals()[index]});
   }

@@ -1,5 +1,6 @@
 #include "ceres_ed/slam/frame/map_growth.h"
 
+#include <ceres_ed/geometry/nearest_pixel.h>
 #include <ceres_ed/graph/binding.h>
 
 #include <algorithm>
@@ -73,8 +74,7 @@ std::vector<Candidate> FindCandidates(const std::vector<VisiblePoint>& visible,
       candidate.in_map = camera_from_map.ApplyInverse(patch.point);
       candidate.normal_in_map = map_from_camera * patch.normal;
       candidate.color = color.empty() ? MapPoint().color
-                                      : color(static_cast<int>(pixel.x() + 0.5),
-                                              static_cast<int>(pixel.y() + 0.5));
+                                      : color(NearestPixel(pixel.x()), NearestPixel(pixel.y()));
       candidates.push_back(candidate);
     }
   }

@@ -3,6 +3,7 @@
 #define CERES_ED_SLAM_FRAME_OBSERVED_SURFACE_H_
 
 #include <ceres_ed/geometry/images.h>
+#include <ceres_ed/geometry/nearest_pixel.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/slam/slam_options.h>
 
@@ -51,8 +52,8 @@ class ObservedSurface {
           pixel.y() < camera_.height - 0.5)) {
       return nullptr;
     }
-    const int i = static_cast<int>(pixel.x() + 0.5) / cell_;
-    const int j = static_cast<int>(pixel.y() + 0.5) / cell_;
+    const int i = NearestPixel(pixel.x()) / cell_;
+    const int j = NearestPixel(pixel.y()) / cell_;
     const SurfacePatch& patch = patches_(i, j);
     return patch.valid() ? &patch : nullptr;
   }

@@ -48,8 +48,9 @@ struct PointBinding {
   }
 
   // Valid as long as this is; what a call returns has to be kept first.
+  // NOLINTNEXTLINE(google-explicit-constructor): it stands wherever a Binding does.
   operator Binding() const& { return {nodes, weights, size}; }
-  operator Binding() const&& = delete;
+  operator Binding() const&& = delete;  // NOLINT(google-explicit-constructor)
 
   // Only the first `size` count.
   int nodes[kMaxBoundNodes];

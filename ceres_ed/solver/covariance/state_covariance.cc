@@ -33,6 +33,7 @@ std::vector<BlockPair> PairsOf(const Skinning& skinning, const std::vector<int>&
     }
   }
   std::vector<BlockPair> result;
+  result.reserve(pairs.size());
   for (const auto& [row, column] : pairs) result.push_back({row, column, true});
   return result;
 }
@@ -228,6 +229,9 @@ bool StateCovariance::Residual(const SelectedResidual& residual,
   std::vector<const double*> blocks;
   std::vector<RowMajor> jacobians;
   std::vector<double*> jacobian_pointers;
+  blocks.reserve(residual.num_blocks);
+  jacobians.reserve(residual.num_blocks);
+  jacobian_pointers.reserve(residual.num_blocks);
   for (int i = 0; i < residual.num_blocks; ++i) {
     blocks.push_back(BlockPointer(impl_->state, residual.blocks[i]));
     jacobians.emplace_back(rows, cost->parameter_block_sizes()[i]);

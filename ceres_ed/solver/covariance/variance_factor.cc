@@ -19,6 +19,7 @@ bool AddResidual(const SelectedResidual& residual,
                  VarianceFactor* sum) {
   const std::shared_ptr<const ceres::CostFunction> cost = residual.CostFunction(graph);
   std::vector<const double*> blocks;
+  blocks.reserve(residual.num_blocks);
   for (int i = 0; i < residual.num_blocks; ++i) {
     blocks.push_back(BlockPointer(state, residual.blocks[i]));
   }
