@@ -24,11 +24,12 @@ OWN_FLAGS = ["-std=gnu++17"]
 # The included files are what is checked, and not only the headers.
 FILTER = "--header-filter=.*/(apps|ceres_ed|cost_functions|data|test)/.*"
 # The code is formatted, so what begins in column 0 is at namespace scope. The name is that before the first of
-# ( [ ; = { or the end of the line; the definition of a member has a "::" before it.
+# ( [ ; = { or the end of the line; the definition of a member has a "::" before it. Tests and flags are macros.
 DEFINED = re.compile(
-    r"(?:TEST(?:_[FP])?\((\w+, *\w+)"
+    r"(?:(?:TEST(?:_[FP])?|DEFINE_\w+)\((\w+(?:, *\w+(?=\)))?)"
     r"|(?:#define |(?!#|//|TEST|namespace|return|using namespace)[\w\[][^(={;]*?(?<!::))"
-    r"\b([A-Za-z_]\w*)(?:\(|\[\d*\]|;|$| [={:]|\{))"
+    r"\b([A-Za-z_]\w*)(?: final|)(?:\(|\[\d*\]|;|$| [={:]|\{)"
+    r"|(CERES_ED_PLUGIN)\()"
 )
 
 
@@ -53,7 +54,7 @@ def defined_names(path):
     with open(path, encoding="utf-8") as file:
         for line in file:
             if match := DEFINED.match(line):
-                names.add(match[1] or match[2])
+                names.add(match[1] or match[2] or match[3])
     return names
 
 
