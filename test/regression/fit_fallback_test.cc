@@ -45,7 +45,7 @@ StatusOr<FitResult> FitDolphin(double weight_astray) {
   FitInput input;
   input.source = MakeSyntheticShape(kShape, 600, 1.0);
   input.target = DeformSyntheticShape(kShape, 1.0, 0.3, MakeSyntheticShape(kShape, 800, 1.0));
-  const EnergyRegistry registry = BuiltinEnergies();
+  EnergyRegistry registry = BuiltinEnergies();
   EnergyInfo info;
   info.name = "astray";
   info.summary = "all points go up and away";
