@@ -3,11 +3,12 @@
 
 Nearly all of clang-tidy's time goes into the headers of Eigen, Ceres and GoogleTest. So the files
 of a top folder are checked in units that include many of them, and those headers are read once a unit. Files that
-define the same name at namespace scope go into different units. Where a unit does not compile all the same, its
-files are checked one by one.
+define the same name at namespace scope go into different units. A unit that does not compile all the same is
+checked in two halves.
 """
 import collections
 import concurrent.futures
+import functools
 import json
 import os
 import re
@@ -48,14 +49,18 @@ def compile_flags(build):
     return flags
 
 
-def defined_names(path):
-    """Returns the names that a file defines at namespace scope."""
-    names = set()
+@functools.lru_cache(None)
+def names_of(path):
+    """Returns the names that a file defines at namespace scope, and those of the tests' headers that it includes."""
+    own = set()
+    included = set()
     with open(path, encoding="utf-8") as file:
         for line in file:
             if match := DEFINED.match(line):
-                names.add(match[1] or match[2] or match[3])
-    return names
+                own.add(match[1] or match[2] or match[3])
+            elif match := re.match(r"#include <(test/.*)>", line):
+                included.update(*names_of(os.path.join(ROOT, match[1])))
+    return own, included
 
 
 class Unit:
@@ -63,18 +68,23 @@ class Unit:
 
     def __init__(self):
         self.files = []
-        self.names = set()
+        self.own_names = set()
+        self.included_names = set()
         self.flags = {}
 
-    def take(self, path, names, flags):
+    def take(self, path, flags):
         """Adds a file, unless it does not go with those that are there. Returns whether it did."""
         values = {flag.split("=")[0]: flag for flag in flags}
-        if len(self.files) == FILES_PER_UNIT or self.names & names:
+        own, included = names_of(path)
+        if len(self.files) == FILES_PER_UNIT:
+            return False
+        if own & (self.own_names | self.included_names) or included & self.own_names:
             return False
         if any(self.flags.get(key, flag) != flag for key, flag in values.items()):
             return False
         self.files.append(path)
-        self.names |= names
+        self.own_names |= own
+        self.included_names |= included
         self.flags.update(values)
         return True
 
@@ -85,8 +95,7 @@ def make_units(flags):
     for path in sorted(flags):
         units = begun[os.path.relpath(path, ROOT).split(os.sep)[0]]
         units.append(Unit())
-        names = defined_names(path)
-        next(unit for unit in units if unit.take(path, names, flags[path]))
+        next(unit for unit in units if unit.take(path, flags[path]))
         if not units[-1].files:
             units.pop()
     return sorted((unit for units in begun.values() for unit in units), key=lambda unit: -len(unit.files))
@@ -108,7 +117,8 @@ def check(build, name, paths, flags):
     error = re.search(r".*\[clang-diagnostic-error", done.stdout)
     if len(paths) > 1 and error:
         print(f"lint: {name} does not compile as one: {error[0]}", file=sys.stderr)
-        return "".join(check(build, name, [path], flags) for path in paths)
+        half = len(paths) // 2
+        return check(build, name + "a", paths[:half], flags) + check(build, name + "b", paths[half:], flags)
     return done.stdout or done.stderr
 
 
