@@ -14,27 +14,34 @@
 set -euo pipefail
 
 packages=()
+# add PACKAGE ...: packages that no list has named yet.
+add() {
+  local package
+  for package in "$@"; do
+    if [[ " ${packages[*]} " != *" $package "* ]]; then packages+=("$package"); fi
+  done
+}
 add_list() {
   case "$1" in
     fit)
       # libceres-dev depends on SuiteSparse, Eigen, glog and gflags; the runtime of OpenBLAS can be linked.
-      packages+=(g++ cmake ninja-build libceres-dev libeigen3-dev libsuitesparse-dev libgoogle-glog-dev
-        libgflags-dev libopenblas0-pthread libnanoflann-dev nlohmann-json3-dev)
+      add g++ cmake ninja-build libceres-dev libeigen3-dev libsuitesparse-dev libgoogle-glog-dev libgflags-dev \
+        libopenblas0-pthread libnanoflann-dev nlohmann-json3-dev
       ;;
     tracking)
       add_list fit
-      packages+=(libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev)
+      add libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev
       ;;
     demo) add_list tracking ;;
-    python) add_list tracking && packages+=(python3-dev pybind11-dev python3-numpy) ;;
-    pcl) add_list fit && packages+=(libpcl-dev) ;;
-    packages) add_list python && packages+=(dpkg-dev file) ;;
-    docs) packages+=(doxygen python3) ;;
+    python) add_list tracking && add python3-dev pybind11-dev python3-numpy ;;
+    pcl) add_list fit && add libpcl-dev ;;
+    packages) add_list python && add dpkg-dev file ;;
+    docs) add doxygen python3 ;;
     test)
       for list in packages pcl docs; do add_list "$list"; done
-      packages+=(ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy)
+      add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy
       ;;
-    lint) packages+=(clang-format clang-tidy) ;;
+    lint) add clang-format clang-tidy ;;
     all) add_list test && add_list lint ;;
     *)
       echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, packages, docs, test, lint or all" >&2
@@ -44,7 +51,6 @@ add_list() {
 }
 
 for list in "${@:-demo}"; do add_list "$list"; done
-mapfile -t packages < <(printf '%s\n' "${packages[@]}" | awk '!seen[$0]++')
 
 if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
   echo "setup.sh: this is no Debian; install these yourself (names of Debian 12):" >&2
