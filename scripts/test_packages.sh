@@ -1,46 +1,22 @@
 #!/usr/bin/env bash
 # Tests the packages of scripts/package.sh on a bare Debian 12 in a folder of its own: it installs them there,
-# runs the demo, and builds and runs the example project with its plugin. It needs root because it uses chroot.
+# runs the demo, builds and runs the example project with its plugin, and uses the Python package and the
+# module for PCL. It needs root because it uses chroot.
 # test_packages.sh [FOLDER (build/packages)]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=${1:-build/packages}
-mirror=${CERES_ED_DEBIAN_MIRROR:-http://deb.debian.org/debian}
-if [[ $EUID -ne 0 ]] || ! command -v debootstrap >/dev/null; then
-  echo "test_packages.sh: needs root and debootstrap (apt-get install debootstrap)" >&2
-  exit 1
-fi
 if ! compgen -G "$packages/*.deb" >/dev/null; then
   echo "test_packages.sh: no packages in $packages: run scripts/package.sh" >&2
   exit 1
 fi
 
-say() { printf '\n== %s\n' "$*"; }
-
-root=$(mktemp -d)
-mounted=()
-clean_up() {
-  for folder in "${mounted[@]}"; do umount "$folder"; done
-  rm -rf --one-file-system "$root"
-}
-trap clean_up EXIT
-
-say "a bare Debian 12"
-chmod 755 "$root"
-debootstrap --variant=minbase bookworm "$root" "$mirror" >"$root.log" 2>&1 ||
-  { tail -5 "$root.log" >&2; exit 1; }
-rm "$root.log"
-# Some installation scripts want /proc; most do without.
-if mount -t proc proc "$root/proc" 2>/dev/null; then mounted+=("$root/proc"); fi
-in_root() { chroot "$root" /usr/bin/env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin HOME=/root LC_ALL=C.UTF-8 \
-  DEBIAN_FRONTEND=noninteractive "$@"; }
-apt_get() { in_root apt-get -q -y -o Dpkg::Use-Pty=0 "$@"; }
+# shellcheck source=scripts/bare_debian.sh
+source scripts/bare_debian.sh
 mkdir "$root/packages"
 cp "$packages"/*.deb "$root/packages/"
-cp /etc/resolv.conf "$root/etc/resolv.conf"
 shopt -s nullglob
-for settings in /etc/apt/apt.conf.d/*proxy*; do cp "$settings" "$root/etc/apt/apt.conf.d/"; done
 
 # install PATTERN ...: the packages whose files match.
 install_packages() {
@@ -72,11 +48,28 @@ in_root /root/by_hand
 say "its plugin"
 in_root ed_list_energies --plugin=/root/consumer/build/floor.so
 pair=/usr/share/ceres_ed/data/plane_bumps
-in_root ed_fit $pair/source.ply $pair/target.ply --output=/root/floored.ply --finish=false \
+in_root ed_fit $pair/source.ply $pair/target.ply --output=/root/floored.ply --warp=/root/warp.json --finish=false \
   --plugin=/root/consumer/build/floor.so --energy=floor:weight=1e4,height=-0.01
 
+say "the Python package"
+install_packages 'python3-ceres-ed_*.deb'
+in_root python3 -c "
+import ceres_ed
+source, target = (ceres_ed.load('$pair/%s.ply' % name) for name in ('source', 'target'))
+print(ceres_ed.fit(source, target).status)"
+
+say "PCD files"
+printf 'FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nPOINTS 2\nDATA ascii\n0 0 0\n0.01 0 0\n' >"$root/root/points.pcd"
+if in_root ed_apply /root/warp.json /root/points.pcd --output=/root/moved.pcd 2>"$root/root/error"; then
+  echo "test_packages.sh: a PCD file was read without ceres-ed-pcl" >&2
+  exit 1
+fi
+cat "$root/root/error"
+install_packages 'ceres-ed-pcl_*.deb'
+in_root ed_apply /root/warp.json /root/points.pcd --output=/root/moved.pcd
+
 say "and gone again"
-apt_get remove --purge 'libceres-ed*' ceres-ed-tools >/dev/null
+apt_get remove --purge 'libceres-ed*' ceres-ed-tools ceres-ed-pcl python3-ceres-ed >/dev/null
 left=$(in_root find /usr -name '*ceres_ed*' -o -name '*ceres-ed*' -o -name 'ed_fit')
 if [[ -n $left ]]; then
   echo "test_packages.sh: left behind: $left" >&2

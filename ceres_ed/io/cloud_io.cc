@@ -1,6 +1,6 @@
 #include "ceres_ed/io/cloud_io.h"
 
-#include <ceres_ed/io/mesh/ply_reader.h>
+#include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 
 #include <algorithm>
@@ -222,7 +222,7 @@ StatusOr<LoadedCloud> CloudFromDocument(const std::string& path, PlyDocument doc
 }
 
 StatusOr<LoadedCloud> LoadCloud(const std::string& path) {
-  StatusOr<PlyDocument> document = ReadPly(path);
+  StatusOr<PlyDocument> document = ReadMesh(path);
   if (!document.ok()) return document.status();
   return CloudFromDocument(path, *std::move(document));
 }

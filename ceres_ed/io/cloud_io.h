@@ -1,4 +1,4 @@
-// Point clouds and meshes from PLY files, and back into them with everything else preserved.
+// Point clouds and meshes from files, and back into them with everything else preserved.
 #ifndef CERES_ED_IO_CLOUD_IO_H_
 #define CERES_ED_IO_CLOUD_IO_H_
 
@@ -28,7 +28,8 @@ struct LoadedCloud {
   std::vector<std::string> warnings;
 };
 
-// Returns the cloud of the PLY file `path`: element 'vertex' with x y z of any type; normals from
+// Returns the cloud of the file `path`, a PLY unless its name ends as another format of
+// io/mesh/mesh_format.h does: element 'vertex' with x y z of any type; normals from
 // nx ny nz or normal_x normal_y normal_z, brought to unit length, a zero or not finite one as zero;
 // intensities 0.299 R + 0.587 G + 0.114 B from red green blue, in [0, 1] where they are floats and
 // as parts of the largest number where they are integers, NaN where one is not finite;
@@ -41,11 +42,17 @@ StatusOr<LoadedCloud> LoadCloud(const std::string& path);
 // LoadCloud for a document that is in memory; `path` names it in messages.
 StatusOr<LoadedCloud> CloudFromDocument(const std::string& path, PlyDocument document);
 
-// Returns ok when `path` holds `original` with x y z of row vertex_of_point[i] replaced by
-// points[i], and its normal, where the original has one and `normals` is not null, by
-// (*normals)[i]. All other rows, elements, properties, comments, the order and the format are the
-// original's; types too, but for integer coordinates or normals, which become double. Else an error
-// with the system's reason.
+// Returns `original` with x y z of row vertex_of_point[i] replaced by points[i], and its normal,
+// where the original has one and `normals` is not null, by (*normals)[i]. All other rows, elements,
+// properties, comments, the order and the format are the original's; types too, but for integer
+// coordinates or normals, which become double.
+PlyDocument MoveVertices(const PlyDocument& original,
+                         const std::vector<int>& vertex_of_point,
+                         const std::vector<Eigen::Vector3d>& points,
+                         const std::vector<Eigen::Vector3d>* normals);
+
+// Returns ok when `path` holds MoveVertices(original, ...), in the format that its ending names;
+// else an error with the system's reason.
 Status SaveCloud(const std::string& path,
                  const PlyDocument& original,
                  const std::vector<int>& vertex_of_point,

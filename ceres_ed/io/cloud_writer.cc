@@ -1,6 +1,6 @@
 #include "ceres_ed/io/cloud_io.h"
 
-#include <ceres_ed/io/mesh/ply_writer.h>
+#include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 
 #include <cstddef>
@@ -68,11 +68,10 @@ PlyElement MakeFaceElement(const PointCloud& cloud) {
 
 }  // namespace
 
-Status SaveCloud(const std::string& path,
-                 const PlyDocument& original,
-                 const std::vector<int>& vertex_of_point,
-                 const std::vector<Eigen::Vector3d>& points,
-                 const std::vector<Eigen::Vector3d>* normals) {
+PlyDocument MoveVertices(const PlyDocument& original,
+                         const std::vector<int>& vertex_of_point,
+                         const std::vector<Eigen::Vector3d>& points,
+                         const std::vector<Eigen::Vector3d>* normals) {
   CHECK_EQ(points.size(), vertex_of_point.size()) << "one row a point";
   PlyDocument document = original;
   PlyElement* const vertices = document.Find("vertex");
@@ -88,7 +87,15 @@ Status SaveCloud(const std::string& path,
     CHECK_EQ(normals->size(), points.size()) << "one normal a point";
     ReplaceRows(*normals, vertex_of_point, *normal_columns, vertices);
   }
-  return WritePly(path, document);
+  return document;
+}
+
+Status SaveCloud(const std::string& path,
+                 const PlyDocument& original,
+                 const std::vector<int>& vertex_of_point,
+                 const std::vector<Eigen::Vector3d>& points,
+                 const std::vector<Eigen::Vector3d>* normals) {
+  return WriteMesh(path, MoveVertices(original, vertex_of_point, points, normals));
 }
 
 Status WriteCloud(const std::string& path,
@@ -99,7 +106,7 @@ Status WriteCloud(const std::string& path,
   document.comments = options.comments;
   document.elements.push_back(MakeVertexElement(cloud, options));
   if (cloud.HasTriangles()) document.elements.push_back(MakeFaceElement(cloud));
-  return WritePly(path, document);
+  return WriteMesh(path, document);
 }
 
 Status SaveCloud(const std::string& path,

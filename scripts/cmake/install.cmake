@@ -3,7 +3,8 @@
 #   library  what a program needs to run: libceres_ed.so.*, nothing of a static build
 #   dev      what one needs to be built: headers, libceres_ed.so or .a, package files
 #   tools    programs, the demo and its data
-#   python   left to the folder that has bindings
+#   python   the Python package (ceres_ed/python)
+#   pcl      the module for PCL, with its header (ceres_ed/pcl)
 #   doc      the licence; each Debian package has one of its own (packages.cmake)
 include(CMakePackageConfigHelpers)
 
@@ -29,8 +30,13 @@ endif()
 install(DIRECTORY ceres_ed cost_functions DESTINATION ${ceres_ed_headers_dir} COMPONENT dev
         FILES_MATCHING
         PATTERN "*.h"
-        # The sources of the Python module.
-        PATTERN "ceres_ed/python" EXCLUDE)
+        # The sources of the Python module, and a header that needs PCL.
+        PATTERN "ceres_ed/python" EXCLUDE
+        PATTERN "ceres_ed/pcl" EXCLUDE)
+if(CERES_ED_BUILD_PCL)
+  install(EXPORT ceres_ed-pcl-targets NAMESPACE ceres_ed:: DESTINATION ${ceres_ed_package_dir} COMPONENT pcl)
+  install(FILES scripts/cmake/ceres_ed-pcl.cmake DESTINATION ${ceres_ed_package_dir} COMPONENT pcl)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/include/ceres_ed/version.h
         DESTINATION ${ceres_ed_headers_dir}/ceres_ed COMPONENT dev)
 

@@ -58,12 +58,24 @@ if(CERES_ED_BUILD_APPS)
 This package has ed_fit, ed_apply, ed_slam, ed_simulate, ed_eval and
 ed_list_energies, sample data, and ceres_ed_demo, which shows them.")
 endif()
-# Bindings are packaged where a folder has installed some as the component `python`.
-get_cmake_property(ceres_ed_components COMPONENTS)
-if(python IN_LIST ceres_ed_components)
+if(CERES_ED_BUILD_PYTHON)
+  # The module is built for one minor version of Python.
+  math(EXPR next_minor "${Python3_VERSION_MINOR} + 1")
+  set(python "python3 (>= ${Python3_VERSION_MAJOR}.${Python3_VERSION_MINOR}~)")
+  string(APPEND python ", python3 (<< ${Python3_VERSION_MAJOR}.${next_minor})")
   ceres_ed_add_package(
-    python python3-ceres-ed python "${ceres_ed_same_version}, python3, python3-numpy"
-    "embedded deformation graphs: Python bindings" "${ceres_ed_text}")
+    python python3-ceres-ed python "${ceres_ed_same_version}, ${python}, python3-numpy"
+    "embedded deformation graphs: Python package"
+    "${ceres_ed_text}\n
+This package has the Python module ceres_ed, which works on numpy arrays.")
+endif()
+if(CERES_ED_BUILD_PCL)
+  ceres_ed_add_package(
+    pcl ceres-ed-pcl libs "${ceres_ed_same_version}" "embedded deformation graphs: PCL clouds and PCD files"
+    "${ceres_ed_text}\n
+With this package the programs read and write .pcd files, and C++ programs
+convert the clouds and meshes of the Point Cloud Library (which they build
+with libceres-ed-dev and libpcl-dev).")
 endif()
 
 if(NOT BUILD_SHARED_LIBS)

@@ -54,6 +54,18 @@ check_package(
   ceres-ed-tools "${library} \\(= ${version}\\).*libgflags" /usr/bin/ed_fit /usr/bin/ed_slam
   /usr/bin/ceres_ed_demo /usr/share/ceres_ed/data/plane_bumps/source.ply
   "/usr/lib/${triplet}/cmake/ceres_ed/ceres_ed-tools-targets.cmake")
+if(python)
+  check_package(python3-ceres-ed "${library} \\(= ${version}\\).*python3 \\(>= 3.*python3 \\(<< 3.*python3-numpy"
+                "/usr/lib/python3/dist-packages/ceres_ed/_core[^/]*.so"
+                /usr/lib/python3/dist-packages/ceres_ed/__init__.py)
+endif()
+if(pcl)
+  check_package(
+    ceres-ed-pcl "${library} \\(= ${version}\\).*libpcl-io"
+    "/usr/lib/${triplet}/libceres_ed_pcl.so.${soversion}"
+    "/usr/lib/${triplet}/cmake/ceres_ed/ceres_ed-pcl-targets.cmake"
+    "/usr/include/ceres_ed-pcl-${version}/ceres_ed/pcl/pcl_conversions.h")
+endif()
 
 # Nothing of the machine that built them, in binaries neither.
 execute_process(

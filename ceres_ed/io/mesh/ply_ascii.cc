@@ -39,14 +39,6 @@ bool FitsIntegerType(PlyType type, double value) {
   return false;
 }
 
-// The value of `word` as `type` keeps it, or nothing where it is no number or does not fit.
-std::optional<double> ParseValue(std::string_view word, PlyType type) {
-  const std::optional<double> value = ParseDouble(word);
-  if (!value.has_value() || type == PlyType::kFloat64) return value;
-  if (type == PlyType::kFloat32) return static_cast<double>(static_cast<float>(*value));
-  return FitsIntegerType(type, *value) ? value : std::nullopt;
-}
-
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
 // Hands out the lines of a text and the words of a line.
@@ -134,7 +126,7 @@ class AsciiBodyReader {
  private:
   Status ReadValue(const PlyElement& element, std::size_t row, PlyProperty* property) {
     const std::string_view word = scanner_.NextWord();
-    const std::optional<double> value = ParseValue(word, property->type);
+    const std::optional<double> value = ParsePlyNumber(word, property->type);
     if (!value.has_value()) return ValueError(element, row, *property, word, property->type);
     property->values.push_back(*value);
     return Status::Ok();
@@ -142,7 +134,7 @@ class AsciiBodyReader {
 
   Status ReadList(const PlyElement& element, std::size_t row, PlyProperty* property) {
     const std::string_view word = scanner_.NextWord();
-    const std::optional<double> size = ParseValue(word, property->list_count_type);
+    const std::optional<double> size = ParsePlyNumber(word, property->list_count_type);
     if (!size.has_value() || *size < 0.0) {
       return Error(element,
                    row,
@@ -185,6 +177,13 @@ class AsciiBodyReader {
 };
 
 }  // namespace
+
+std::optional<double> ParsePlyNumber(std::string_view word, PlyType type) {
+  const std::optional<double> value = ParseDouble(word);
+  if (!value.has_value() || type == PlyType::kFloat64) return value;
+  if (type == PlyType::kFloat32) return static_cast<double>(static_cast<float>(*value));
+  return FitsIntegerType(type, *value) ? value : std::nullopt;
+}
 
 Status ReadPlyAsciiBody(const std::string& path, std::string_view body, PlyHeader* header) {
   AsciiBodyReader reader(path, body, *header);
