@@ -1,7 +1,9 @@
 // What README.md and the other pages say is what is there.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/energy_listing.h>
+#include <ceres_ed/version.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <regex>
@@ -64,6 +66,16 @@ TEST(Readme, ShowsTheHelloExampleAsItIsCompiled) {
   const std::string example = ReadSourceFile("apps/examples/01_hello/hello.cc");
   ASSERT_FALSE(example.empty());
   EXPECT_THAT(ReadSourceFile("README.md"), HasSubstr("```cpp\n" + example + "```\n"));
+}
+
+TEST(Readme, HasAtMost170Lines) {
+  const std::string readme = ReadSourceFile("README.md");
+  EXPECT_LE(std::count(readme.begin(), readme.end(), '\n'), 170);
+}
+
+TEST(Citation, HasTheVersionOfTheLibrary) {
+  EXPECT_THAT(ReadSourceFile("CITATION.cff"),
+              HasSubstr(std::string("\nversion: ") + kVersion + "\n"));
 }
 
 TEST(EnergyPage, ListsTheEnergiesAsTheRegistryHasThem) {
