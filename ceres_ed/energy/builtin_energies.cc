@@ -5,21 +5,7 @@
 namespace ceres_ed {
 
 void RegisterBuiltinEnergies(EnergyRegistry* registry) {
-  using RegisterFunction = Status(EnergyRegistry*);
-  constexpr RegisterFunction* kEnergies[] = {RegisterRotation,
-                                             RegisterRegularization,
-                                             RegisterNodePrior,
-                                             RegisterPosePrior,
-                                             RegisterLaplacian,
-                                             RegisterVolume,
-                                             RegisterTemporalSmoothness,
-                                             RegisterPointToPlane,
-                                             RegisterPointToPoint,
-                                             RegisterLandmark,
-                                             RegisterPinnedVertex,
-                                             RegisterSymmetricPointToPlane,
-                                             RegisterPhotometric};
-  for (RegisterFunction* const register_energy : kEnergies) {
+  for (const auto register_energy : kRegisterEnergies) {
     const Status status = register_energy(registry);
     CHECK(status.ok()) << status.message();
   }

@@ -1,5 +1,6 @@
-// The energies that come with the library, one file each. To add one: a functor in cost_functions/,
-// a file here that registers it, and a line below and in builtin_energies.cc.
+// The energies that come with the library, one file each. To add one, write a file here that
+// registers it, with its functor in cost_functions/ or in the file itself, and add its function to
+// this header.
 #ifndef CERES_ED_ENERGY_CATALOGUE_CATALOGUE_H_
 #define CERES_ED_ENERGY_CATALOGUE_CATALOGUE_H_
 
@@ -23,6 +24,22 @@ Status RegisterLandmark(EnergyRegistry* registry);
 Status RegisterPinnedVertex(EnergyRegistry* registry);
 Status RegisterSymmetricPointToPlane(EnergyRegistry* registry);
 Status RegisterPhotometric(EnergyRegistry* registry);
+
+// All of the above.
+inline constexpr Status (*kRegisterEnergies[])(EnergyRegistry* registry) = {
+    RegisterRotation,
+    RegisterRegularization,
+    RegisterNodePrior,
+    RegisterPosePrior,
+    RegisterLaplacian,
+    RegisterVolume,
+    RegisterTemporalSmoothness,
+    RegisterPointToPlane,
+    RegisterPointToPoint,
+    RegisterLandmark,
+    RegisterPinnedVertex,
+    RegisterSymmetricPointToPlane,
+    RegisterPhotometric};
 
 }  // namespace ceres_ed
 
