@@ -6,13 +6,15 @@
 #include <apps/eval_pair.h>
 #include <apps/eval_sequence.h>
 #include <apps/support/program.h>
+#include <apps/support/run_flags.h>
 
 namespace ceres_ed {
 namespace {
 
 Outcome Run(const std::vector<std::string>& arguments) {
-  const StatusOr<EvalSettings> settings = ReadEvalFlags(arguments);
+  StatusOr<EvalSettings> settings = ReadEvalFlags(arguments);
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
+  settings->flags = CurrentFlags();
   return settings->is_sequence() ? EvaluateSequence(*settings) : EvaluatePair(*settings);
 }
 

@@ -1,12 +1,12 @@
 // ed_list_energies: every energy with its parameters, units, ranges and defaults.
 #include <ceres_ed/energy/energy_listing.h>
 #include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/pipeline/energies.h>
 
 #include <cstdio>
 #include <string>
 #include <vector>
 
-#include <apps/support/energies.h>
 #include <apps/support/program.h>
 #include <gflags/gflags.h>
 

@@ -1,6 +1,7 @@
 #include "apps/eval_pair.h"
 
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/version.h>
 
 #include <cstdio>
@@ -9,7 +10,6 @@
 #include <vector>
 
 #include <apps/support/evaluation_report.h>
-#include <apps/support/report.h>
 
 namespace ceres_ed {
 namespace {
@@ -41,7 +41,7 @@ Outcome EvaluatePair(const EvalSettings& settings) {
     report["result"] = {{"path", settings.fitted}, {"points", result.size()}};
     report["target"] = {{"path", settings.target}, {"points", target.size()}};
     report.update(EvaluationReport(*evaluation));
-    report["flags"] = FlagsReport();
+    report["flags"] = FlagsReport(settings.flags);
     if (Status status = WriteReport(settings.report, report); !status.ok()) {
       return Outcome::BadInput(status);
     }

@@ -1,6 +1,7 @@
 #include "apps/eval_sequence.h"
 
 #include <ceres_ed/io/image_io.h>
+#include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/version.h>
 
 #include <cstdio>
@@ -12,7 +13,6 @@
 #include <apps/eval_sequence_files.h>
 #include <apps/eval_sequence_report.h>
 #include <apps/support/progress_bar.h>
-#include <apps/support/report.h>
 
 namespace ceres_ed {
 namespace {
@@ -109,7 +109,7 @@ Outcome EvaluateSequence(const EvalSettings& settings) {
     report.update(SequenceReport(*figures));
     report["options"] = OptionsReport();
     report["warnings"] = warnings;
-    report["flags"] = FlagsReport();
+    report["flags"] = FlagsReport(settings.flags);
     if (Status status = WriteReport(settings.report, report); !status.ok()) {
       return Outcome::BadInput(status);
     }

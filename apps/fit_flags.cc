@@ -189,8 +189,8 @@ void ReadNumbers(FitOptions* options) {
 
 }  // namespace
 
-StatusOr<FitSettings> ReadFitFlags() {
-  FitSettings settings;
+StatusOr<FitCommand> ReadFitFlags() {
+  FitCommand settings;
   settings.output = FLAGS_output;
   settings.landmarks = FLAGS_landmarks;
   settings.fixed = FLAGS_fixed;

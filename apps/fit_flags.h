@@ -2,6 +2,7 @@
 #ifndef CERES_ED_APPS_FIT_FLAGS_H_
 #define CERES_ED_APPS_FIT_FLAGS_H_
 
+#include <ceres_ed/pipeline/fit/fit_settings.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/status.h>
 
@@ -9,22 +10,14 @@
 
 namespace ceres_ed {
 
-// What the command line asks for. Paths are empty where a flag is not given.
-struct FitSettings {
-  FitOptions options;
-  std::string output;
-  std::string landmarks;
-  std::string fixed;
-  std::string plugin;
-  std::string warp;
-  std::string graph;
-  std::string report;
+// What the command line asks for: the run, and what the program shows of it.
+struct FitCommand : FitSettings {
   bool quiet = false;
 };
 
 // Returns the flags as they are now, checked. Error: names the flag, its value and what was
 // expected.
-StatusOr<FitSettings> ReadFitFlags();
+StatusOr<FitCommand> ReadFitFlags();
 
 // "batch" or "two_level".
 std::string SolveModeName(SolveMode mode);

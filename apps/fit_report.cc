@@ -1,15 +1,14 @@
 #include "apps/fit_report.h"
 
 #include <ceres_ed/linear_algebra/linear_algebra_backend.h>
+#include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/version.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
-
-#include <apps/support/energies.h>
-#include <apps/support/report.h>
 
 namespace ceres_ed {
 namespace {
@@ -202,7 +201,7 @@ ordered_json FitReport(const FitRun& run) {
       {"time_s", TimeReport(run)},
       {"threads", run.settings->options.num_threads},
       {"warnings", run.warnings},
-      {"flags", FlagsReport()},
+      {"flags", FlagsReport(run.settings->flags)},
       {"backend", BackendReport()}};
 }
 

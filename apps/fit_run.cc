@@ -1,5 +1,7 @@
 #include "apps/fit_run.h"
 
+#include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/timer.h>
 
@@ -10,20 +12,19 @@
 #include <apps/fit_files.h>
 #include <apps/fit_flags.h>
 #include <apps/fit_report.h>
-#include <apps/support/energies.h>
 #include <apps/support/progress_bar.h>
-#include <apps/support/report.h>
+#include <apps/support/run_flags.h>
 
 namespace ceres_ed {
 namespace {
 
 StatusOr<FitResult> FitWithProgress(const FitInput& input,
-                                    FitSettings settings,
+                                    FitCommand settings,
                                     double seconds_gone,
                                     const EnergyRegistry& registry) {
   FitOptions& options = settings.options;
   options.time_limit_s = std::max(1e-3, options.time_limit_s - seconds_gone);
-  options.should_stop = [] { return StopRequested().load(); };
+  options.should_stop = [] { return StopRequested(); };
   constexpr int kSteps = 100;
   ProgressBar bar("ed_fit", kSteps, settings.quiet);
   options.on_progress = [&bar](const FitProgress& progress) {
@@ -34,7 +35,7 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
 }
 
 // Writes what there is and says how the run ended.
-Outcome Conclude(FitRun run, const Timer& clock) {
+Outcome Conclude(FitRun run, bool quiet, const Timer& clock) {
   const FitSettings& settings = *run.settings;
   const FitResult& result = *run.result;
   run.warnings = FitWarnings(run);
@@ -53,7 +54,7 @@ Outcome Conclude(FitRun run, const Timer& clock) {
     if (!status.ok()) return Outcome::BadInput(status);
   }
   if (!result.IsUsable()) return Outcome::NoResult(Status::Error(result.message));
-  if (!settings.quiet) std::fputs(FitSummary(run).c_str(), stdout);
+  if (!quiet) std::fputs(FitSummary(run).c_str(), stdout);
   const bool stopped =
       result.status == SolveStatus::kTimeLimit || result.status == SolveStatus::kInterrupted;
   return stopped ? Outcome::StoppedEarly(result.message + " in " + settings.output)
@@ -64,9 +65,10 @@ Outcome Conclude(FitRun run, const Timer& clock) {
 
 Outcome RunFit(const std::vector<std::string>& arguments) {
   const Timer clock;
-  StopRequested();
-  const StatusOr<FitSettings> settings = ReadFitFlags();
+  InstallStopHandler();
+  StatusOr<FitCommand> settings = ReadFitFlags();
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
+  settings->flags = CurrentFlags();
   if (arguments.size() == 1 && settings->landmarks.empty()) {
     return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
   }
@@ -85,7 +87,7 @@ Outcome RunFit(const std::vector<std::string>& arguments) {
     const std::string inputs = arguments[0] + (arguments.size() > 1 ? ", " + arguments[1] : "");
     return Outcome::BadInput(Status::Error(inputs + ": " + result.status().message()));
   }
-  return Conclude({&*settings, &*files, &*result, &registry, load_s}, clock);
+  return Conclude({&*settings, &*files, &*result, &registry, load_s}, settings->quiet, clock);
 }
 
 }  // namespace ceres_ed

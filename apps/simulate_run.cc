@@ -1,6 +1,7 @@
 #include "apps/simulate_run.h"
 
 #include <ceres_ed/io/sequence/native_writer.h>
+#include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/simulation/sequences.h>
 #include <ceres_ed/util/timer.h>
 #include <ceres_ed/version.h>
@@ -9,7 +10,7 @@
 #include <optional>
 
 #include <apps/support/progress_bar.h>
-#include <apps/support/report.h>
+#include <apps/support/run_flags.h>
 #include <gflags/gflags.h>
 
 DEFINE_string(output, "", "folder to write the sequence to, made if it is not there; required");
@@ -78,7 +79,7 @@ Status WriteInfo(const std::string& scene, const SyntheticSequence& sequence, in
                                  {"faces", sequence.truth_mesh().triangles.size()},
                                  {"units", "metres in poses and truth"}};
   // Where the files are must not change what is in them.
-  nlohmann::ordered_json flags = FlagsReport();
+  nlohmann::ordered_json flags = FlagsReport(CurrentFlags());
   for (const char* name : {"output", "overwrite", "quiet"}) flags.erase(name);
   info["flags"] = flags;
   return WriteReport(FLAGS_output + "/info.json", info);
@@ -111,7 +112,7 @@ Status WriteFrames(const SyntheticSequence& sequence, NativeSequenceWriter* writ
 
 Outcome RunSimulate(const std::vector<std::string>& arguments) {
   const Timer clock;
-  StopRequested();
+  InstallStopHandler();
   const std::string& scene = arguments[0];
   const StatusOr<SyntheticSequenceOptions> options = ReadFlags(scene);
   if (!options.ok()) return Outcome::Usage(options.status().message());

@@ -28,8 +28,8 @@ constexpr Choice<ProgressStyle> kProgress[] = {
 // On the command line 0 stands for no limit.
 constexpr double kNoLimit = 0.0;
 
-const SlamSettings& Defaults() {
-  static const SlamSettings defaults;
+const SlamCommand& Defaults() {
+  static const SlamCommand defaults;
   return defaults;
 }
 
@@ -134,7 +134,7 @@ Status CheckNumbers() {
   return Status::Ok();
 }
 
-Status ReadChoices(SlamSettings* settings) {
+Status ReadChoices(SlamCommand* settings) {
   SlamOptions* options = &settings->options;
   Status status = Choose("mode", kModes, FLAGS_mode, &options->levels.strategy.mode);
   if (!status.ok()) return status;
@@ -181,8 +181,8 @@ void ReadNumbers(SlamSettings* settings) {
 
 }  // namespace
 
-StatusOr<SlamSettings> ReadSlamFlags() {
-  SlamSettings settings;
+StatusOr<SlamCommand> ReadSlamFlags() {
+  SlamCommand settings;
   if (FLAGS_output.empty()) return Status::Error("flag --output is required");
   settings.output = FLAGS_output;
   settings.track = FLAGS_track;

@@ -1,5 +1,6 @@
 #include "apps/slam_report.h"
 
+#include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/version.h>
 
@@ -9,7 +10,6 @@
 #include <fstream>
 #include <numeric>
 
-#include <apps/support/report.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -164,7 +164,7 @@ ordered_json SlamReport(const SlamRun& run) {
           {"memory", MemoryReport(slam)},
           {"threads", options.num_threads},
           {"warnings", *run.warnings},
-          {"flags", FlagsReport()},
+          {"flags", FlagsReport(run.settings->flags)},
           {"backend", BackendReport()}};
 }
 

@@ -1,6 +1,7 @@
 #include "apps/slam_run.h"
 
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/util/timer.h>
 
 #include <cstdio>
@@ -11,7 +12,7 @@
 
 #include <apps/slam_flags.h>
 #include <apps/slam_session.h>
-#include <apps/support/energies.h>
+#include <apps/support/run_flags.h>
 
 namespace ceres_ed {
 namespace {
@@ -40,9 +41,10 @@ StatusOr<std::vector<NamedPoint>> LoadPoints(const std::string& path, WarningLog
 
 Outcome RunSlam(const std::vector<std::string>& arguments) {
   const Timer clock;
-  StopRequested();
-  const StatusOr<SlamSettings> settings = ReadSlamFlags();
+  InstallStopHandler();
+  StatusOr<SlamCommand> settings = ReadSlamFlags();
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
+  settings->flags = CurrentFlags();
   EnergyRegistry registry;
   const std::vector<EnergySpec>& energies = settings->options.levels.energies;
   Outcome outcome = LoadEnergies(settings->plugin, energies, &registry);

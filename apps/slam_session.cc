@@ -3,6 +3,8 @@
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/io/text_rows.h>
+#include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/report.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -12,9 +14,7 @@
 #include <sstream>
 #include <utility>
 
-#include <apps/support/energies.h>
 #include <apps/support/progress_bar.h>
-#include <apps/support/report.h>
 
 namespace ceres_ed {
 namespace {

@@ -27,7 +27,7 @@ namespace ceres_ed {
 class SlamSession {
  public:
   // `clock` runs since the start of the program.
-  SlamSession(const SlamSettings& settings,
+  SlamSession(const SlamCommand& settings,
               const std::string& sequence_path,
               const DepthSequence& sequence,
               const EnergyRegistry& registry,
@@ -66,7 +66,7 @@ class SlamSession {
   // Saves what goes on from frame to frame, but the files, or loads it.
   void ExchangeProgress(CheckpointArchive* archive);
 
-  const SlamSettings& settings_;
+  const SlamCommand& settings_;
   const std::string& sequence_path_;
   const DepthSequence& sequence_;
   const EnergyRegistry& registry_;

@@ -1,6 +1,7 @@
 #include "apps/support/program.h"
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <cstdio>
 #include <exception>
@@ -37,13 +38,6 @@ extern "C" void HandleStopSignal(int) {
   stop_requested = true;
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
-}
-
-bool InstallStopHandler() {
-  std::signal(SIGTERM, HandleStopSignal);
-  // A shell starts background jobs with SIGINT ignored: the Ctrl-C is meant for others.
-  if (std::signal(SIGINT, HandleStopSignal) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
-  return true;
 }
 
 void ConfigureLogging(const char* program) {
@@ -104,10 +98,12 @@ int RunProgram(const ProgramInfo& info,
   return static_cast<int>(outcome.code);
 }
 
-const std::atomic<bool>& StopRequested() {
-  static const bool installed = InstallStopHandler();
-  CHECK(installed);
-  return stop_requested;
+void InstallStopHandler() {
+  std::signal(SIGTERM, HandleStopSignal);
+  // A shell starts background jobs with SIGINT ignored: the Ctrl-C is meant for others.
+  if (std::signal(SIGINT, HandleStopSignal) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
 }
+
+bool StopRequested() { return stop_requested; }
 
 }  // namespace ceres_ed

@@ -2,40 +2,13 @@
 #ifndef CERES_ED_APPS_SUPPORT_PROGRAM_H_
 #define CERES_ED_APPS_SUPPORT_PROGRAM_H_
 
-#include <ceres_ed/util/status.h>
+#include <ceres_ed/pipeline/outcome.h>
 
-#include <atomic>
 #include <functional>
 #include <string>
 #include <vector>
 
 namespace ceres_ed {
-
-// Exit codes; scripts rely on them.
-enum class ExitCode : int {
-  kDone = 0,
-  kUsage = 1,
-  // An input that can't be read or used.
-  kBadInput = 2,
-  // The solve gave nothing usable.
-  kNoResult = 3,
-  // Stopped by a time limit or Ctrl-C; the best result so far is written.
-  kStoppedEarly = 4,
-};
-
-// How a program ended: the code, and for any other than kDone the sentence for stderr.
-struct Outcome {
-  ExitCode code = ExitCode::kDone;
-  std::string message;
-
-  static Outcome Done() { return {}; }
-  static Outcome Usage(const std::string& message) { return {ExitCode::kUsage, message}; }
-  static Outcome BadInput(const Status& status) { return {ExitCode::kBadInput, status.message()}; }
-  static Outcome NoResult(const Status& status) { return {ExitCode::kNoResult, status.message()}; }
-  static Outcome StoppedEarly(const std::string& message) {
-    return {ExitCode::kStoppedEarly, message};
-  }
-};
 
 // What --help says of a program beside its flags.
 struct ProgramInfo {
@@ -62,9 +35,12 @@ int RunProgram(const ProgramInfo& info,
                char** argv,
                const std::function<Outcome(const std::vector<std::string>& arguments)>& body);
 
-// Returns the flag that the first SIGINT or SIGTERM sets; the second one kills. The signals do what
-// they always did until this is called for the first time.
-const std::atomic<bool>& StopRequested();
+// Has the first SIGINT or SIGTERM ask the program to stop; the second one kills. Until this is
+// called the signals do what they always did.
+void InstallStopHandler();
+
+// Returns whether a signal has asked the program to stop.
+bool StopRequested();
 
 }  // namespace ceres_ed
 

@@ -30,8 +30,9 @@ endif()
 install(DIRECTORY ceres_ed cost_functions DESTINATION ${ceres_ed_headers_dir} COMPONENT dev
         FILES_MATCHING
         PATTERN "*.h"
-        # The sources of the Python module, and a header that needs PCL.
+        # The sources of the Python module, what it shares with the programs, and a header that needs PCL.
         PATTERN "ceres_ed/python" EXCLUDE
+        PATTERN "ceres_ed/pipeline" EXCLUDE
         PATTERN "ceres_ed/pcl" EXCLUDE)
 if(CERES_ED_BUILD_PCL)
   install(EXPORT ceres_ed-pcl-targets NAMESPACE ceres_ed:: DESTINATION ${ceres_ed_package_dir} COMPONENT pcl)

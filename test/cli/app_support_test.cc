@@ -1,15 +1,11 @@
-#include <cmath>
 #include <csignal>
 #include <fstream>
-#include <limits>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <apps/support/command_line.h>
 #include <apps/support/program.h>
-#include <apps/support/report.h>
 #include <gflags/gflags.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -44,12 +40,6 @@ int RunWith(const std::function<Outcome(const std::vector<std::string>&)>& body)
   char* argv[] = {program.data(), argument.data(), nullptr};
   // RunProgram may set glog up once a process only; the command line is what is tested apart.
   return RunProgram(kInfo, 2, argv, body);
-}
-
-std::string ReadAll(const std::string& path) {
-  std::ostringstream text;
-  text << std::ifstream(path).rdbuf();
-  return text.str();
 }
 
 TEST(CommandLine, TakesFlagsInEveryForm) {
@@ -105,29 +95,6 @@ TEST(CommandLine, ReadsAFlagFileAndNamesItsBadLine) {
   EXPECT_THAT(ParseError({"in", flag.c_str()}), HasSubstr("in a circle"));
 }
 
-TEST(Report, WritesNullForNanAndInfinity) {
-  const std::string path = ::testing::TempDir() + "/report.json";
-  nlohmann::ordered_json report;
-  report["b"] = std::nan("");
-  report["a"] = {std::numeric_limits<double>::infinity(), 1.5};
-  ASSERT_TRUE(WriteReport(path, report).ok());
-  const auto back = nlohmann::ordered_json::parse(ReadAll(path));
-  EXPECT_TRUE(back["b"].is_null());
-  EXPECT_TRUE(back["a"][0].is_null());
-  EXPECT_EQ(back["a"][1], 1.5);
-  EXPECT_EQ(back.begin().key(), "b");
-}
-
-TEST(Report, SurvivesAPathThatIsNoUtf8) {
-  const std::string path = ::testing::TempDir() + "/latin1.json";
-  ASSERT_TRUE(WriteReport(path, {{"path", "caf\xe9.ply"}}).ok());
-  EXPECT_EQ(nlohmann::ordered_json::parse(ReadAll(path))["path"], "caf\xef\xbf\xbd.ply");
-}
-
-TEST(Report, NamesAPathThatCannotBeWritten) {
-  EXPECT_THAT(WriteReport("/nowhere/r.json", {}).message(), HasSubstr("/nowhere/r.json"));
-}
-
 // Each runs in a process of its own, for glog is set up once a process.
 using ProgramDeathTest = ::testing::Test;
 
@@ -151,15 +118,15 @@ TEST(ProgramDeathTest, ReportsABadInputInOneLine) {
 
 TEST(ProgramDeathTest, FirstSignalAsksAndSecondKills) {
   const auto survives_one = [](const auto&) {
-    const std::atomic<bool>& stop = StopRequested();
-    CHECK(!stop);
+    InstallStopHandler();
+    CHECK(!StopRequested());
     std::raise(SIGTERM);
-    CHECK(stop);
+    CHECK(StopRequested());
     return Outcome::StoppedEarly("stopped");
   };
   EXPECT_EXIT(std::exit(RunWith(survives_one)), ::testing::ExitedWithCode(4), "^prog: stopped\n$");
   const auto dies_of_two = [](const auto&) {
-    StopRequested();
+    InstallStopHandler();
     std::raise(SIGTERM);
     std::raise(SIGTERM);
     return Outcome::Done();

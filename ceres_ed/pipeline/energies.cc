@@ -1,4 +1,4 @@
-#include "apps/support/energies.h"
+#include "ceres_ed/pipeline/energies.h"
 
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/plugin/plugin_loader.h>

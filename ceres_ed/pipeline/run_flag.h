@@ -1,0 +1,23 @@
+// The flags that a run was started with, as data for reports and checkpoints.
+#ifndef CERES_ED_PIPELINE_RUN_FLAG_H_
+#define CERES_ED_PIPELINE_RUN_FLAG_H_
+
+#include <string>
+#include <vector>
+
+namespace ceres_ed {
+
+struct RunFlag {
+  enum class Type { kBool, kInteger, kNumber, kText };
+
+  std::string name;
+  // "true" or "false" for kBool; a number in as few digits as read back as the same.
+  std::string value;
+  Type type = Type::kText;
+};
+
+using RunFlags = std::vector<RunFlag>;
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_PIPELINE_RUN_FLAG_H_
