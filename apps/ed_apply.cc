@@ -2,6 +2,7 @@
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/pipeline/outputs.h>
 
 #include <cstdio>
 #include <string>
@@ -18,6 +19,7 @@ namespace {
 
 Outcome Run(const std::vector<std::string>& arguments) {
   if (FLAGS_output.empty()) return Outcome::Usage("flag --output is required");
+  if (Status status = PrepareOutput(FLAGS_output); !status.ok()) return Outcome::BadInput(status);
   const StatusOr<Warp> warp = ReadWarp(arguments[0]);
   if (!warp.ok()) return Outcome::BadInput(warp.status());
   StatusOr<LoadedCloud> loaded = LoadCloud(arguments[1]);

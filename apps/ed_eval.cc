@@ -1,21 +1,36 @@
 // ed_eval: how good a result is, a fitted surface or the map of a sequence.
+#include <ceres_ed/pipeline/evaluate/evaluate_run.h>
+
 #include <string>
 #include <vector>
 
 #include <apps/eval_flags.h>
-#include <apps/eval_pair.h>
-#include <apps/eval_sequence.h>
+#include <apps/eval_text.h>
+#include <apps/support/console.h>
 #include <apps/support/program.h>
 #include <apps/support/run_flags.h>
 
 namespace ceres_ed {
 namespace {
 
+class EvaluateConsole : public ConsoleObserver<EvaluateObserver> {
+ public:
+  EvaluateConsole() : ConsoleObserver("ed_eval", /*quiet=*/false) {}
+
+  void OnPair(const Evaluation& evaluation) override {
+    console().Summarize(EvaluationTable(evaluation));
+  }
+  void OnSequence(const SequenceFigures& figures) override {
+    console().Summarize(SequenceTables(figures));
+  }
+};
+
 Outcome Run(const std::vector<std::string>& arguments) {
   StatusOr<EvalSettings> settings = ReadEvalFlags(arguments);
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
   settings->flags = CurrentFlags();
-  return settings->is_sequence() ? EvaluateSequence(*settings) : EvaluatePair(*settings);
+  EvaluateConsole console;
+  return RunEvaluation(*settings, &console);
 }
 
 const ProgramInfo kProgram = {

@@ -1,10 +1,39 @@
 // ed_fit: one surface deformed until it lies on another, or its landmarks where they belong.
-#include <apps/fit_run.h>
-#include <apps/support/program.h>
+#include <ceres_ed/pipeline/fit/fit_run.h>
+#include <ceres_ed/util/timer.h>
 
+#include <string>
+#include <vector>
+
+#include <apps/fit_flags.h>
+#include <apps/fit_text.h>
+#include <apps/support/console.h>
+#include <apps/support/program.h>
+#include <apps/support/run_flags.h>
+
+namespace ceres_ed {
 namespace {
 
-const ceres_ed::ProgramInfo kProgram = {
+class FitConsole : public ConsoleObserver<FitObserver> {
+ public:
+  explicit FitConsole(bool quiet) : ConsoleObserver("ed_fit", quiet) {}
+
+  void OnEnd(const FitRun& run) override { console().Summarize(FitSummary(run)); }
+};
+
+Outcome Run(const std::vector<std::string>& arguments) {
+  const Timer clock;
+  InstallStopHandler();
+  StatusOr<FitCommand> command = ReadFitFlags();
+  if (!command.ok()) return Outcome::Usage(command.status().message());
+  command->source = arguments[0];
+  if (arguments.size() > 1) command->target = arguments[1];
+  command->flags = CurrentFlags();
+  FitConsole console(command->quiet);
+  return RunFit(*command, clock, &console);
+}
+
+const ProgramInfo kProgram = {
     "ed_fit",
     "SOURCE.ply [TARGET.ply] --output=OUT.ply",
     "Deforms SOURCE until it lies on TARGET, or, without one, until its --landmarks are where they "
@@ -14,7 +43,8 @@ const ceres_ed::ProgramInfo kProgram = {
     2};
 
 }  // namespace
+}  // namespace ceres_ed
 
 int main(int argc, char** argv) {
-  return ceres_ed::RunProgram(kProgram, argc, argv, ceres_ed::RunFit);
+  return ceres_ed::RunProgram(ceres_ed::kProgram, argc, argv, ceres_ed::Run);
 }

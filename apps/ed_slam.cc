@@ -1,10 +1,63 @@
 // ed_slam: the camera and the tissue that it looks at, frame by frame.
-#include <apps/slam_run.h>
-#include <apps/support/program.h>
+#include <ceres_ed/pipeline/slam/slam_run.h>
+#include <ceres_ed/util/timer.h>
 
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include <apps/slam_flags.h>
+#include <apps/slam_text.h>
+#include <apps/support/console.h>
+#include <apps/support/program.h>
+#include <apps/support/run_flags.h>
+#include <gflags/gflags.h>
+
+DEFINE_bool(overwrite, false, "replace a result that is in --output already");
+
+namespace ceres_ed {
 namespace {
 
-const ceres_ed::ProgramInfo kProgram = {
+// Shows each frame in the way that --progress asks for.
+class SlamConsole : public ConsoleObserver<SlamObserver> {
+ public:
+  SlamConsole(ProgressStyle style, bool quiet) : ConsoleObserver("ed_slam", quiet), style_(style) {}
+
+  void OnFrame(const FrameRecord& record, int done, int total, double frames_per_s) override {
+    if (style_ == ProgressStyle::kBar) {
+      console().ShowProgress(done, total, ProgressNote(record, frames_per_s));
+    }
+    if (style_ == ProgressStyle::kJson) {
+      std::fputs(ProgressJson(record, done, total, frames_per_s).c_str(), stdout);
+      std::fflush(stdout);
+    }
+  }
+
+  void OnEnd(const SlamRun& run) override {
+    if (run.status != "failed" && style_ != ProgressStyle::kJson) {
+      console().Summarize(SlamSummary(run));
+    }
+  }
+
+ private:
+  ProgressStyle style_;
+};
+
+Outcome Run(const std::vector<std::string>& arguments) {
+  const Timer clock;
+  InstallStopHandler();
+  StatusOr<SlamCommand> command = ReadSlamFlags();
+  if (!command.ok()) return Outcome::Usage(command.status().message());
+  command->input = arguments[0];
+  command->overwrite = FLAGS_overwrite;
+  command->flags = CurrentFlags();
+  command->fixed_flags = FixedFlags();
+  command->strategy_flags = StrategyFlags();
+  SlamConsole console(command->progress, command->quiet);
+  return RunSlam(*command, clock, &console);
+}
+
+const ProgramInfo kProgram = {
     "ed_slam",
     "SEQUENCE_DIR --output=DIR",
     "Tracks a deforming scene in depth frames and maps it. Writes to DIR: report.json, frames.csv, "
@@ -16,7 +69,8 @@ const ceres_ed::ProgramInfo kProgram = {
     1};
 
 }  // namespace
+}  // namespace ceres_ed
 
 int main(int argc, char** argv) {
-  return ceres_ed::RunProgram(kProgram, argc, argv, ceres_ed::RunSlam);
+  return ceres_ed::RunProgram(ceres_ed::kProgram, argc, argv, ceres_ed::Run);
 }

@@ -1,4 +1,6 @@
-#include "apps/eval_sequence_report.h"
+#include "apps/eval_text.h"
+
+#include <ceres_ed/evaluation/run_log.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -37,13 +39,13 @@ std::string TruthTable(const std::vector<FrameTruthError>& errors) {
       "                        | all        seen            | seen              hidden\n"
       "frame  points   seen    |   median   median      p95 |     mean   median     mean   "
       "median\n";
-  const std::vector<FrameFigure>& figures = TruthFigures();
-  const auto figure = [&figures](const char* name) {
-    return *std::find_if(figures.begin(), figures.end(), [name](const FrameFigure& candidate) {
-      return std::string(candidate.name) == name;
-    });
+  const auto figure = [](const char* name) {
+    return *std::find_if(
+        std::begin(kTruthFigures), std::end(kTruthFigures), [name](const TruthFigure& candidate) {
+          return std::string(candidate.name) == name;
+        });
   };
-  const FrameFigure columns[] = {figure("surface_all_median"),
+  const TruthFigure columns[] = {figure("surface_all_median"),
                                  figure("surface_seen_median"),
                                  figure("surface_seen_p95"),
                                  figure("tracking_seen_mean"),
@@ -61,11 +63,11 @@ std::string TruthTable(const std::vector<FrameTruthError>& errors) {
   for (const std::size_t i : ThinnedRows(errors.size())) {
     const FrameTruthError& error = errors[i];
     table += row(Line("%5d %7d %6d   ", error.frame, error.points, error.seen),
-                 [&error](const FrameFigure& column) { return column.of(error); });
+                 [&error](const TruthFigure& column) { return column.Of(error); });
   }
   for (const bool is_mean : {true, false}) {
     table += row(is_mean ? "mean over frames       " : "median over frames     ",
-                 [&](const FrameFigure& column) -> std::optional<double> {
+                 [&](const TruthFigure& column) -> std::optional<double> {
                    const AcrossFrames across = SummarizeTruth(errors, column);
                    if (across.frames == 0) return std::nullopt;
                    return is_mean ? across.mean : across.median;

@@ -208,6 +208,4 @@ StatusOr<FitCommand> ReadFitFlags() {
   return settings;
 }
 
-std::string SolveModeName(SolveMode mode) { return NameOf(kModes, mode); }
-
 }  // namespace ceres_ed

@@ -3,7 +3,6 @@
 #define CERES_ED_APPS_FIT_FLAGS_H_
 
 #include <ceres_ed/pipeline/fit/fit_settings.h>
-#include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/status.h>
 
 #include <string>
@@ -18,9 +17,6 @@ struct FitCommand : FitSettings {
 // Returns the flags as they are now, checked. Error: names the flag, its value and what was
 // expected.
 StatusOr<FitCommand> ReadFitFlags();
-
-// "batch" or "two_level".
-std::string SolveModeName(SolveMode mode);
 
 }  // namespace ceres_ed
 

@@ -1,15 +1,13 @@
 #include "apps/simulate_run.h"
 
-#include <ceres_ed/io/sequence/native_writer.h>
-#include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/pipeline/simulate/simulate_run.h>
 #include <ceres_ed/simulation/sequences.h>
 #include <ceres_ed/util/timer.h>
-#include <ceres_ed/version.h>
 
 #include <cstdio>
 #include <optional>
 
-#include <apps/support/progress_bar.h>
+#include <apps/support/console.h>
 #include <apps/support/run_flags.h>
 #include <gflags/gflags.h>
 
@@ -70,91 +68,46 @@ StatusOr<SyntheticSequenceOptions> ReadFlags(const std::string& scene) {
   return options;
 }
 
-Status WriteInfo(const std::string& scene, const SyntheticSequence& sequence, int frames) {
-  nlohmann::ordered_json info = {{"program", "ed_simulate"},
-                                 {"version", kVersion},
-                                 {"scene", scene},
-                                 {"frames", frames},
-                                 {"vertices", sequence.truth_mesh().size()},
-                                 {"faces", sequence.truth_mesh().triangles.size()},
-                                 {"units", "metres in poses and truth"}};
-  // Where the files are must not change what is in them.
-  nlohmann::ordered_json flags = FlagsReport(CurrentFlags());
-  for (const char* name : {"output", "overwrite", "quiet"}) flags.erase(name);
-  info["flags"] = flags;
-  return WriteReport(FLAGS_output + "/info.json", info);
-}
+class SimulateConsole : public ConsoleObserver<SimulateObserver> {
+ public:
+  SimulateConsole(const SimulateSettings& settings, const Timer& clock)
+      : ConsoleObserver("ed_simulate", FLAGS_quiet), settings_(settings), clock_(clock) {}
 
-// Writes the frames, until someone asks it to stop.
-Status WriteFrames(const SyntheticSequence& sequence, NativeSequenceWriter* writer) {
-  ProgressBar bar("ed_simulate", sequence.num_frames(), FLAGS_quiet);
-  const Timer clock;
-  const bool with_truth = !sequence.truth_mesh().empty();
-  for (int k = 0; k < sequence.num_frames() && !StopRequested(); ++k) {
-    const SyntheticFrame frame = sequence.Render(k, FLAGS_color);
-    std::vector<Eigen::Vector3d> truth;
-    if (with_truth) truth = sequence.TruthPoints(k);
-    NativeFrame native;
-    native.depth = &frame.depth;
-    native.color = &frame.color;
-    native.mask = &frame.mask;
-    native.world_from_camera = frame.world_from_camera;
-    native.truth = with_truth ? &truth : nullptr;
-    if (Status status = writer->WriteFrame(native); !status.ok()) return status;
-    char note[64];
-    std::snprintf(note, sizeof(note), "frames, %.1f a second", (k + 1) / clock.Seconds());
-    bar.Update(k + 1, note);
+  void OnEnd(const SimulatedSequence& sequence) override {
+    char line[512];
+    std::snprintf(line,
+                  sizeof(line),
+                  ": %d frames of %s, %d x %d, %zu vertices with truth, %.1f s\n",
+                  sequence.frames,
+                  settings_.scene.c_str(),
+                  settings_.options.width,
+                  settings_.options.height,
+                  sequence.truth_vertices,
+                  clock_.Seconds());
+    console().Summarize(settings_.output + line);
   }
-  return writer->Finish();
-}
+
+ private:
+  const SimulateSettings& settings_;
+  const Timer& clock_;
+};
 
 }  // namespace
 
 Outcome RunSimulate(const std::vector<std::string>& arguments) {
   const Timer clock;
   InstallStopHandler();
-  const std::string& scene = arguments[0];
-  const StatusOr<SyntheticSequenceOptions> options = ReadFlags(scene);
+  const StatusOr<SyntheticSequenceOptions> options = ReadFlags(arguments[0]);
   if (!options.ok()) return Outcome::Usage(options.status().message());
-  if (!FLAGS_overwrite && HoldsNativeSequence(FLAGS_output)) {
-    return Outcome::BadInput(Status::Error(
-        FLAGS_output + ": holds a sequence already, expected an empty folder or --overwrite"));
-  }
-  // Meshing an organ takes seconds.
-  std::optional<ProgressBar> bar(std::in_place, "ed_simulate", 1, FLAGS_quiet);
-  bar->Update(0, "meshing the tissue");
-  const SyntheticSequence sequence(*options);
-  bar.reset();
-  if (!sequence.truth_note().empty()) {
-    std::fprintf(stderr, "ed_simulate: warning: %s\n", sequence.truth_note().c_str());
-  }
-  NativeSequenceOptions layout;
-  layout.camera = {sequence.camera(), sequence.depth_units_per_metre()};
-  layout.truth_triangles = sequence.truth_mesh().triangles;
-  layout.overwrite = FLAGS_overwrite;
-  const auto writer = NativeSequenceWriter::Create(FLAGS_output, layout);
-  if (!writer.ok()) return Outcome::BadInput(writer.status());
-
-  Status status = WriteFrames(sequence, writer->get());
-  const int frames = (*writer)->num_frames();
-  if (status.ok()) status = WriteInfo(scene, sequence, frames);
-  if (!status.ok()) return Outcome::BadInput(status);
-  if (!FLAGS_quiet) {
-    std::printf("%s: %d frames of %s, %d x %d, %zu vertices with truth, %.1f s\n",
-                FLAGS_output.c_str(),
-                frames,
-                scene.c_str(),
-                options->width,
-                options->height,
-                sequence.truth_mesh().size(),
-                clock.Seconds());
-  }
-  if (frames < sequence.num_frames()) {
-    return Outcome::StoppedEarly("stopped at frame " + std::to_string(frames) + " of " +
-                                 std::to_string(sequence.num_frames()) + "; what is in " +
-                                 FLAGS_output + " is whole");
-  }
-  return Outcome::Done();
+  SimulateSettings settings;
+  settings.options = *options;
+  settings.scene = arguments[0];
+  settings.output = FLAGS_output;
+  settings.overwrite = FLAGS_overwrite;
+  settings.color = FLAGS_color;
+  settings.flags = CurrentFlags();
+  SimulateConsole console(settings, clock);
+  return RunSimulation(settings, &console);
 }
 
 }  // namespace ceres_ed

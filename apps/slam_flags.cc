@@ -219,6 +219,7 @@ const std::set<std::string>& StrategyNames() {
 
 std::string FixedFlags() {
   const std::set<std::string> free = {"output",
+                                      "overwrite",
                                       "resume",
                                       "threads",
                                       "time_limit_s",
@@ -235,9 +236,5 @@ std::string FixedFlags() {
 std::string StrategyFlags() {
   return FlagLines([](const std::string& name) { return StrategyNames().count(name) > 0; });
 }
-
-std::string SlamModeName(SolveMode mode) { return NameOf(kModes, mode); }
-
-std::string CameraModeName(CameraMode mode) { return NameOf(kCameras, mode); }
 
 }  // namespace ceres_ed

@@ -27,10 +27,6 @@ StatusOr<SlamCommand> ReadSlamFlags();
 std::string FixedFlags();
 std::string StrategyFlags();
 
-// "batch" or "two_level"; "estimate", "fixed" or "given".
-std::string SlamModeName(SolveMode mode);
-std::string CameraModeName(CameraMode mode);
-
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_APPS_SLAM_FLAGS_H_

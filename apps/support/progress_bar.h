@@ -15,6 +15,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
+  int total() const { return total_; }
+
   // Shows that `done` steps are behind us, with a few words on how it goes.
   void Update(int done, const std::string& note);
 

@@ -5,11 +5,12 @@
 #ifndef CERES_ED_EVALUATION_SEQUENCE_EVALUATION_H_
 #define CERES_ED_EVALUATION_SEQUENCE_EVALUATION_H_
 
-#include <ceres_ed/evaluation/live_snapshot.h>
 #include <ceres_ed/evaluation/pair_evaluation.h>
-#include <ceres_ed/evaluation/scene_truth.h>
+#include <ceres_ed/evaluation/true_surface.h>
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/io/results/live_cloud_io.h>
+#include <ceres_ed/io/sequence/scene_truth.h>
 #include <ceres_ed/util/status.h>
 
 #include <optional>

@@ -2,10 +2,11 @@
 #ifndef CERES_ED_EVALUATION_TRACK_FOLLOWING_H_
 #define CERES_ED_EVALUATION_TRACK_FOLLOWING_H_
 
-#include <ceres_ed/evaluation/live_snapshot.h>
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/evaluation/sequence_evaluation.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/io/results/live_cloud_io.h>
+#include <ceres_ed/io/sequence/picture_tracks.h>
 
 #include <map>
 #include <optional>
@@ -14,13 +15,6 @@
 #include <Eigen/Core>
 
 namespace ceres_ed {
-
-// Where a track is in a frame, pixels; integers are pixel centres.
-struct TrackObservation {
-  int frame = 0;
-  int track = 0;
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-};
 
 struct TrackFollowingOptions {
   // A track is tied to so many map points...

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <utility>
 
 namespace ceres_ed {
@@ -50,8 +49,7 @@ std::optional<std::array<int, 2>> PixelOf(const PinholeCamera& camera,
 }
 
 VisibilityBuffer::VisibilityBuffer(const PinholeCamera& camera)
-    : camera_(camera),
-      nearest_(camera.width, camera.height, std::numeric_limits<float>::infinity()) {}
+    : camera_(camera), nearest_(camera) {}
 
 void VisibilityBuffer::AddTriangles(const PointCloud& mesh) {
   for (const auto& [a, b, c] : mesh.triangles) {
@@ -87,10 +85,10 @@ void VisibilityBuffer::AddTriangle(const Triangle& corners) {
   };
   const auto [u_low, u_high] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
   const auto [v_low, v_high] = std::minmax({p[0].y(), p[1].y(), p[2].y()});
-  const int u_first = std::max(0, clamp(std::ceil(u_low), nearest_.width()));
-  const int v_first = std::max(0, clamp(std::ceil(v_low), nearest_.height()));
-  const int u_last = std::min(nearest_.width() - 1, clamp(std::floor(u_high), nearest_.width()));
-  const int v_last = std::min(nearest_.height() - 1, clamp(std::floor(v_high), nearest_.height()));
+  const int u_first = std::max(0, clamp(std::ceil(u_low), camera_.width));
+  const int v_first = std::max(0, clamp(std::ceil(v_low), camera_.height));
+  const int u_last = std::min(camera_.width - 1, clamp(std::floor(u_high), camera_.width));
+  const int v_last = std::min(camera_.height - 1, clamp(std::floor(v_high), camera_.height));
   for (int v = v_first; v <= v_last; ++v) {
     for (int u = u_first; u <= u_last; ++u) {
       const double a = side(p[1], p[2], u, v) / area;
@@ -99,7 +97,7 @@ void VisibilityBuffer::AddTriangle(const Triangle& corners) {
       if (a < 0.0 || b < 0.0 || c < 0.0) continue;
       // 1 / z is linear in the picture.
       const double inverse = a / corners[0].z() + b / corners[1].z() + c / corners[2].z();
-      nearest_(u, v) = std::min(nearest_(u, v), static_cast<float>(1.0 / inverse));
+      nearest_.Add(u, v, 1.0 / inverse);
     }
   }
 }
@@ -114,7 +112,7 @@ void VisibilityBuffer::AddPoints(const std::vector<Eigen::Vector3d>& points) {
     const int v_last = std::min((*pixel)[1] + reach, camera_.height - 1);
     for (int v = std::max(0, (*pixel)[1] - reach); v <= v_last; ++v) {
       for (int u = std::max(0, (*pixel)[0] - reach); u <= u_last; ++u) {
-        nearest_(u, v) = std::min(nearest_(u, v), static_cast<float>(point.z()));
+        nearest_.Add(u, v, point.z());
       }
     }
   }
@@ -123,7 +121,7 @@ void VisibilityBuffer::AddPoints(const std::vector<Eigen::Vector3d>& points) {
 bool VisibilityBuffer::Sees(const Eigen::Vector3d& point, double tolerance) const {
   const auto pixel = PixelOf(camera_, point);
   if (!pixel) return false;
-  const double nearest = nearest_((*pixel)[0], (*pixel)[1]);
+  const double nearest = nearest_.At((*pixel)[0], (*pixel)[1]);
   return point.z() <= nearest + tolerance * point.z();
 }
 

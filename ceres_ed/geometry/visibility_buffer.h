@@ -2,9 +2,9 @@
 #ifndef CERES_ED_GEOMETRY_VISIBILITY_BUFFER_H_
 #define CERES_ED_GEOMETRY_VISIBILITY_BUFFER_H_
 
-#include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/geometry/point_cloud.h>
+#include <ceres_ed/geometry/z_buffer.h>
 
 #include <array>
 #include <optional>
@@ -14,12 +14,12 @@
 
 namespace ceres_ed {
 
-// The pixel that a point of the camera frame falls on, or nothing when it is behind the camera or
-// outside the picture. Integers are pixel centres: column 0 takes u from -0.5 up to 0.5.
+// Returns the pixel that a point of the camera frame falls on, or nothing when it is behind the
+// camera or outside the picture. Integers are pixel centres: column 0 takes u from -0.5 up to 0.5.
 std::optional<std::array<int, 2>> PixelOf(const PinholeCamera& camera,
                                           const Eigen::Vector3d& point);
 
-// The nearest depth that occluders leave behind each pixel.
+// What occluders hide, by the nearest depth at each pixel.
 class VisibilityBuffer {
  public:
   // Nothing occludes yet.
@@ -42,8 +42,7 @@ class VisibilityBuffer {
   void AddTriangle(const Triangle& corners);
 
   PinholeCamera camera_;
-  // Infinite where nothing is.
-  Image<float> nearest_;
+  ZBuffer<float> nearest_;
 };
 
 }  // namespace ceres_ed

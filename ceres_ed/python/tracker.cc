@@ -1,5 +1,6 @@
 #include "ceres_ed/python/tracker.h"
 
+#include <ceres_ed/pipeline/slam/map_export.h>
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/energies.h>
 #include <ceres_ed/python/errors.h>
@@ -7,10 +8,10 @@
 #include <ceres_ed/python/options.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
-
-#include <cost_functions/node_parameters.h>
 
 namespace ceres_ed::python {
 
@@ -118,51 +119,22 @@ MapSnapshot Tracker::Snapshot(const std::string& frame) {
   const Turn turn(&busy_);
   CatchUp();
   const py::gil_scoped_release release;
-  const DeformableMap& map = slam_->map();
-  const bool in_camera = frame == "camera";
-  const ceres_ed::CameraPose pose = in_camera ? slam_->camera_from_map() : ceres_ed::CameraPose();
-  MapSnapshot snapshot;
-  for (int slot = 0; slot < map.num_slots(); ++slot) {
-    if (!map.alive(slot)) continue;
-    const MapPoint point = map.point(slot);
-    const PointBinding binding = map.binding(slot);
-    const Eigen::Vector3d now = WarpPoint(map.graph(), map.state(), binding, point.position);
-    snapshot.points.push_back(slam_->unit() * (pose * now));
-    snapshot.normals.push_back(pose.rotation * WarpNormal(map.state(), binding, point.normal));
-    snapshot.colors.push_back(point.color);
-    snapshot.ids.push_back(point.id);
-    snapshot.birth_frames.push_back(point.birth_frame);
-    snapshot.weights.push_back(point.weight);
-  }
-  return snapshot;
+  return ExportMap(*slam_, frame == "camera" ? MapFrame::kCamera : MapFrame::kMap);
 }
 
 Warp Tracker::MakeWarp() {
   const Turn turn(&busy_);
   CatchUp();
-  const DeformableMap& map = slam_->map();
-  Warp warp;
-  warp.binding.neighbors = map.neighbors();
-  warp.binding.distance = DistanceRule::kEuclidean;
-  for (const Eigen::Vector3d& position : map.graph().positions()) {
-    warp.graph.AddNode(slam_->unit() * position);
-  }
-  for (const GraphEdge& edge : map.graph().edges()) warp.graph.AddEdge(edge);
-  warp.state = map.state();
-  warp.state.camera_from_map = {};
-  for (int j = 0; j < warp.state.num_nodes(); ++j) {
-    MutableNodeTranslation(warp.state.node(j)) *= slam_->unit();
-  }
-  return warp;
+  return ExportWarp(*slam_);
 }
 
 std::optional<Similarity> Tracker::CameraPose() const {
   const Turn turn(&busy_);
   if (slam_->unit() == 0.0) return std::nullopt;
-  const ceres_ed::CameraPose& camera_from_map = slam_->camera_from_map();
+  const ceres_ed::CameraPose map_from_camera = ExportCameraPose(*slam_);
   Similarity pose;
-  pose.rotation = camera_from_map.rotation.conjugate();
-  pose.translation = pose.rotation * (-slam_->unit() * camera_from_map.translation);
+  pose.rotation = map_from_camera.rotation;
+  pose.translation = map_from_camera.translation;
   return pose;
 }
 

@@ -6,33 +6,20 @@
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/geometry/similarity.h>
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/slam/slam.h>
 
-#include <array>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
-#include <Eigen/Core>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 namespace ceres_ed::python {
 
 namespace py = pybind11;
-
-// The map's points as they are now: what tracker.snapshot() returns.
-struct MapSnapshot {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3d> normals;
-  std::vector<std::array<std::uint8_t, 3>> colors;
-  std::vector<int> ids;
-  std::vector<int> birth_frames;
-  std::vector<double> weights;
-};
 
 // A DeformableSlam that takes arrays and works without the interpreter's lock.
 class Tracker {

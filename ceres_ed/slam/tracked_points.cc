@@ -42,53 +42,6 @@ Status TooFar(const NamedPoint& point, double distance, double limit) {
   return Status::Error(text);
 }
 
-// The depth of the nearest map point, cell by cell.
-class ZBuffer {
- public:
-  ZBuffer(const std::vector<VisiblePoint>& visible,
-          const PinholeCamera& camera,
-          const VisibilityOptions& options)
-      : cell_(CellSize(visible, camera, options)),
-        nearest_(camera.width / cell_ + 1,
-                 camera.height / cell_ + 1,
-                 std::numeric_limits<double>::infinity()) {
-    for (const VisiblePoint& point : visible) {
-      double& z = nearest_(Cell(point.pixel.x()), Cell(point.pixel.y()));
-      z = std::min(z, point.in_camera.z());
-    }
-  }
-
-  // Infinite where there is nothing.
-  double At(const Eigen::Vector2d& pixel) const {
-    return nearest_(Cell(pixel.x()), Cell(pixel.y()));
-  }
-
- private:
-  // One width for all cells, from the middle of the scene.
-  static int CellSize(const std::vector<VisiblePoint>& visible,
-                      const PinholeCamera& camera,
-                      const VisibilityOptions& options) {
-    if (visible.empty()) return 1;
-    std::vector<double> depths;
-    depths.reserve(visible.size());
-    for (const VisiblePoint& point : visible) depths.push_back(point.in_camera.z());
-    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-    std::nth_element(depths.begin(), middle, depths.end());
-    const double pixels = options.cell_size * std::max(camera.fx, camera.fy) / *middle;
-    return static_cast<int>(std::clamp(pixels, 2.0, 64.0));
-  }
-
-  int Cell(double pixel) const { return static_cast<int>(pixel + 0.5) / cell_; }
-
-  int cell_;
-  Image<double> nearest_;
-};
-
-bool InPicture(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 &&
-         pixel.y() < camera.height - 0.5;
-}
-
 }  // namespace
 
 StatusOr<TrackedPoints> TrackedPoints::Bind(const std::vector<NamedPoint>& points,
@@ -131,9 +84,7 @@ std::vector<TrackedPlace> TrackedPoints::Locate(const DeformableSlam& slam,
                                                 const PinholeCamera& camera) const {
   const DeformableMap& map = slam.map();
   const CameraPose& pose = slam.camera_from_map();
-  const VisibilityOptions& options = options_.visibility;
-  const ZBuffer z_buffer(FindVisible(map, pose, camera, options), camera, options);
-  const double min_cosine = std::cos(options.max_view_angle_deg * M_PI / 180.0);
+  const MapOcclusion occlusion(PointsInPicture(map, pose, camera), camera, options_.visibility);
   std::vector<TrackedPlace> places;
   places.reserve(points_.size());
   for (const Point& point : points_) {
@@ -143,10 +94,9 @@ std::vector<TrackedPlace> TrackedPoints::Locate(const DeformableSlam& slam,
         pose.rotation * WarpNormal(map.state(), point.binding(), point.normal_at_rest);
     TrackedPlace place;
     place.in_camera = slam.unit() * in_camera;
-    if (in_camera.z() > 0.0 && -normal.dot(in_camera) >= min_cosine * in_camera.norm()) {
+    if (in_camera.z() > 0.0) {
       const Eigen::Vector2d pixel = camera.Project(in_camera);
-      place.visible =
-          InPicture(camera, pixel) && in_camera.z() <= z_buffer.At(pixel) + options.depth_tolerance;
+      place.visible = InPicture(camera, pixel) && occlusion.Sees(in_camera, normal, pixel);
     }
     places.push_back(place);
   }

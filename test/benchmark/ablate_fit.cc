@@ -1,6 +1,7 @@
 // ablate_fit: a fit with one of its ingredients left out, to see what that one is worth.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/timer.h>
 #include <ceres_ed/version.h>
@@ -9,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include <apps/support/report.h>
 #include <gflags/gflags.h>
 
 DEFINE_string(without, "", "ingredient to leave out, see --list; empty = none");

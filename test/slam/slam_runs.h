@@ -3,8 +3,8 @@
 #define CERES_ED_TEST_SLAM_SLAM_RUNS_H_
 
 #include <ceres_ed/energy/builtin_energies.h>
-#include <ceres_ed/evaluation/scene_truth.h>
 #include <ceres_ed/evaluation/sequence_evaluation.h>
+#include <ceres_ed/evaluation/true_surface.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/simulation/sequences.h>
 #include <ceres_ed/slam/slam.h>

@@ -57,6 +57,8 @@ struct SequenceOptions {
   int step = 1;
   // False leaves colour aside even where there is some.
   bool color = true;
+  // False leaves masks aside: all depth that was measured counts.
+  bool masks = true;
   // Stored depth / this = metres; 0: what the sequence says. >= 0.
   double depth_units_per_metre = 0.0;
 

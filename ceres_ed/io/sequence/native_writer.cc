@@ -1,6 +1,5 @@
 #include "ceres_ed/io/sequence/native_writer.h"
 
-#include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/image_io.h>
 
 #include <algorithm>
@@ -17,9 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kPictureFolders[] = {"color", "depth", "mask"};
-constexpr const char* kTruthMesh = "gt_mesh_000000.ply";
-constexpr const char* kTruthVertices = "gt_vertices.f32";
-constexpr const char* kFiles[] = {"camera.txt", "poses.txt", kTruthMesh, kTruthVertices};
+constexpr const char* kFiles[] = {"camera.txt", "poses.txt", kTruthMeshName, kTruthVerticesName};
 
 std::string PictureName(int frame) {
   char name[32];
@@ -145,38 +142,19 @@ Status NativeSequenceWriter::WriteFrame(const NativeFrame& frame) {
 Status NativeSequenceWriter::WriteTruth(const std::vector<Eigen::Vector3d>& points) {
   if (truth_ == nullptr) {
     CHECK_EQ(num_frames(), 0) << "frames before this one had no truth";
-    StatusOr<std::unique_ptr<AtomicFile>> file =
-        AtomicFile::Create((fs::path(directory_) / kTruthVertices).string());
-    if (!file.ok()) return file.status();
-    truth_ = *std::move(file);
-    first_truth_ = points;
+    StatusOr<std::unique_ptr<SceneTruthWriter>> writer =
+        SceneTruthWriter::Create(directory_, options_.truth_triangles);
+    if (!writer.ok()) return writer.status();
+    truth_ = *std::move(writer);
   }
-  CHECK_EQ(points.size(), first_truth_.size());
-  buffer_.clear();
-  for (const Eigen::Vector3d& point : points) {
-    for (int axis = 0; axis < 3; ++axis) buffer_.push_back(static_cast<float>(point[axis]));
-  }
-  truth_->stream().write(reinterpret_cast<const char*>(buffer_.data()),
-                         static_cast<std::streamsize>(buffer_.size() * sizeof(float)));
-  return truth_->stream().good()
-             ? Status::Ok()
-             : Status::Error(directory_ + "/" + kTruthVertices + ": can't be written, disk full?");
+  return truth_->Add(points);
 }
 
 Status NativeSequenceWriter::Finish() {
-  const fs::path root(directory_);
   if (truth_ != nullptr) {
-    PointCloud mesh;
-    mesh.points = std::move(first_truth_);
-    mesh.triangles = options_.truth_triangles;
-    CloudWriteOptions options;
-    options.comments = {"true surface at frame 0, metres, world frame"};
-    Status status = WriteCloud((root / kTruthMesh).string(), mesh, options);
-    if (!status.ok()) return status;
-    status = truth_->Commit();
-    if (!status.ok()) return status;
+    if (Status status = truth_->Finish(); !status.ok()) return status;
   }
-  return WritePosesFile((root / "poses.txt").string(), poses_);
+  return WritePosesFile((fs::path(directory_) / "poses.txt").string(), poses_);
 }
 
 }  // namespace ceres_ed

@@ -5,8 +5,8 @@
 
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/graph/deformation_state.h>
-#include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/camera_io.h>
+#include <ceres_ed/io/sequence/scene_truth.h>
 #include <ceres_ed/util/status.h>
 
 #include <array>
@@ -69,10 +69,7 @@ class NativeSequenceWriter {
   NativeSequenceOptions options_;
   std::vector<FramePose> poses_;
   // Null until there is a first frame with truth.
-  std::unique_ptr<AtomicFile> truth_;
-  std::vector<Eigen::Vector3d> first_truth_;
-  // The bytes of one frame.
-  std::vector<float> buffer_;
+  std::unique_ptr<SceneTruthWriter> truth_;
 };
 
 // Returns true if `directory` holds a part of a sequence in the native layout.

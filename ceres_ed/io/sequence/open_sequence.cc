@@ -214,6 +214,10 @@ StatusOr<std::unique_ptr<DepthSequence>> OpenSequence(const std::string& directo
     listing->has_color = false;
     for (SequenceEntry& entry : listing->entries) entry.color_path.clear();
   }
+  if (!options.masks) {
+    listing->has_masks = false;
+    for (SequenceEntry& entry : listing->entries) entry.mask_path.clear();
+  }
   AddWarnings(&*listing);
   Thin(options.step, &listing->entries);
   std::string description = Describe(**reader, is_guessed, *listing);

@@ -32,8 +32,12 @@ struct SlamSettings {
   bool overwrite = false;
   // Seconds.
   double time_limit_s = std::numeric_limits<double>::infinity();
-  // For the report, and to see that a run is resumed as it was started.
+  // For the report.
   RunFlags flags;
+  // A line `--name=value` for each flag that a run must be resumed with as it was, and for each
+  // that says how the levels are solved: these may change on the way, the map is the same in kind.
+  std::string fixed_flags;
+  std::string strategy_flags;
 };
 
 }  // namespace ceres_ed

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstddef>
 
 namespace ceres_ed {
 namespace {
@@ -27,56 +27,80 @@ VisiblePoint Look(const DeformableMap& map,
   return seen;
 }
 
+// The width of all cells, pixels, from the middle of the scene.
+int CellSize(const std::vector<VisiblePoint>& points,
+             const PinholeCamera& camera,
+             const VisibilityOptions& options) {
+  if (points.empty()) return 1;
+  std::vector<double> depths;
+  depths.reserve(points.size());
+  for (const VisiblePoint& point : points) depths.push_back(point.in_camera.z());
+  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+  std::nth_element(depths.begin(), middle, depths.end());
+  const double f = std::max(camera.fx, camera.fy);
+  return static_cast<int>(std::clamp(options.cell_size * f / *middle, 2.0, 64.0));
+}
+
+// The pixel column or row that a coordinate of a place in the picture falls on.
+int Nearest(double coordinate) { return static_cast<int>(coordinate + 0.5); }
+
+}  // namespace
+
+MapOcclusion::MapOcclusion(const std::vector<VisiblePoint>& in_picture,
+                           const PinholeCamera& camera,
+                           const VisibilityOptions& options)
+    : camera_(camera),
+      options_(options),
+      min_cosine_(std::cos(options.max_view_angle_deg * M_PI / 180.0)),
+      nearest_(camera, CellSize(in_picture, camera, options)) {
+  for (const VisiblePoint& point : in_picture) {
+    nearest_.Add(Nearest(point.pixel.x()), Nearest(point.pixel.y()), point.in_camera.z());
+  }
+}
+
+bool MapOcclusion::Sees(const Eigen::Vector3d& place,
+                        const Eigen::Vector3d& normal,
+                        const Eigen::Vector2d& pixel) const {
+  const double facing = -normal.dot(place);
+  if (!(facing >= min_cosine_ * place.norm())) return false;
+  // What the place's own tangent plane rises across a cell: a steep surface doesn't hide itself.
+  const double z = place.z();
+  const double rise = nearest_.cell() * z * z / facing *
+                      (std::abs(normal.x()) / camera_.fx + std::abs(normal.y()) / camera_.fy);
+  const double nearest = nearest_.At(Nearest(pixel.x()), Nearest(pixel.y()));
+  return !(z > nearest + options_.depth_tolerance + rise);
+}
+
 bool InPicture(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
   return pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera.width - 0.5 &&
          pixel.y() < camera.height - 0.5;
 }
 
-}  // namespace
+std::vector<VisiblePoint> PointsInPicture(const DeformableMap& map,
+                                          const CameraPose& camera_from_map,
+                                          const PinholeCamera& camera) {
+  std::vector<VisiblePoint> points;
+  for (const int node : map.NodesNearView(ViewVolume(camera_from_map, camera))) {
+    for (const int slot : map.points_of_node(node)) {
+      const VisiblePoint point = Look(map, camera_from_map, camera, slot);
+      if (InPicture(camera, point.pixel)) points.push_back(point);
+    }
+  }
+  return points;
+}
 
 std::vector<VisiblePoint> FindVisible(const DeformableMap& map,
                                       const CameraPose& camera_from_map,
                                       const PinholeCamera& camera,
                                       const VisibilityOptions& options) {
-  std::vector<VisiblePoint> candidates;
-  std::vector<double> depths;
-  for (const int node : map.NodesNearView(ViewVolume(camera_from_map, camera))) {
-    for (const int slot : map.points_of_node(node)) {
-      VisiblePoint point = Look(map, camera_from_map, camera, slot);
-      if (!InPicture(camera, point.pixel)) continue;
-      depths.push_back(point.in_camera.z());
-      candidates.push_back(point);
-    }
-  }
-  if (candidates.empty()) return candidates;
-  // One width for all cells, from the middle of the scene.
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
-  const double f = std::max(camera.fx, camera.fy);
-  const int cell = static_cast<int>(std::clamp(options.cell_size * f / *middle, 2.0, 64.0));
-  Image<double> nearest(
-      camera.width / cell + 1, camera.height / cell + 1, std::numeric_limits<double>::infinity());
-  const auto cell_of = [&](const Eigen::Vector2d& pixel) -> double& {
-    return nearest(static_cast<int>(pixel.x() + 0.5) / cell,
-                   static_cast<int>(pixel.y() + 0.5) / cell);
-  };
-  for (const VisiblePoint& point : candidates) {
-    double& z = cell_of(point.pixel);
-    z = std::min(z, point.in_camera.z());
-  }
-  const double min_cosine = std::cos(options.max_view_angle_deg * M_PI / 180.0);
+  std::vector<VisiblePoint> points = PointsInPicture(map, camera_from_map, camera);
+  const MapOcclusion occlusion(points, camera, options);
   const auto hidden = [&](const VisiblePoint& point) {
     const Eigen::Vector3d normal = camera_from_map.rotation * point.normal_in_map;
-    const double facing = -normal.dot(point.in_camera);
-    if (!(facing >= min_cosine * point.in_camera.norm())) return true;
-    // What the point's own tangent plane rises across a cell: a steep surface doesn't hide itself.
-    const double z = point.in_camera.z();
-    const double rise = cell * z * z / facing *
-                        (std::abs(normal.x()) / camera.fx + std::abs(normal.y()) / camera.fy);
-    return z > cell_of(point.pixel) + options.depth_tolerance + rise;
+    return !occlusion.Sees(point.in_camera, normal, point.pixel);
   };
-  candidates.erase(std::remove_if(candidates.begin(), candidates.end(), hidden), candidates.end());
-  return candidates;
+  points.erase(std::remove_if(points.begin(), points.end(), hidden), points.end());
+  return points;
 }
 
 void UpdateVisible(const DeformableMap& map,

@@ -2,8 +2,8 @@
 #ifndef CERES_ED_SLAM_FRAME_VISIBILITY_H_
 #define CERES_ED_SLAM_FRAME_VISIBILITY_H_
 
-#include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/geometry/z_buffer.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 
@@ -31,8 +31,38 @@ struct VisibilityOptions {
   double max_view_angle_deg = 85.0;
 };
 
+// Which places the map hides from a camera, by a z-buffer of its points.
+class MapOcclusion {
+ public:
+  // `in_picture` has the points of the map whose pixels are in the picture, seen or not.
+  MapOcclusion(const std::vector<VisiblePoint>& in_picture,
+               const PinholeCamera& camera,
+               const VisibilityOptions& options);
+
+  // Whether a place faces the camera and is not behind the map; `pixel` is where it is in the
+  // picture. All but the pixel in the camera frame and in map units.
+  bool Sees(const Eigen::Vector3d& place,
+            const Eigen::Vector3d& normal,
+            const Eigen::Vector2d& pixel) const;
+
+ private:
+  PinholeCamera camera_;
+  VisibilityOptions options_;
+  double min_cosine_;
+  ZBuffer<double> nearest_;
+};
+
+// Returns the points of the map whose pixels are in the picture, node by node. Only points of nodes
+// near the view are looked at.
+std::vector<VisiblePoint> PointsInPicture(const DeformableMap& map,
+                                          const CameraPose& camera_from_map,
+                                          const PinholeCamera& camera);
+
+// Returns whether a pixel is in the picture.
+bool InPicture(const PinholeCamera& camera, const Eigen::Vector2d& pixel);
+
 // Returns the points in view, node by node: in the picture, facing the camera, and not behind the
-// warped map (z-buffer). Only points of nodes near the view are looked at.
+// warped map.
 std::vector<VisiblePoint> FindVisible(const DeformableMap& map,
                                       const CameraPose& camera_from_map,
                                       const PinholeCamera& camera,

@@ -1,0 +1,31 @@
+// What the log of a run says in a few numbers.
+#ifndef CERES_ED_EVALUATION_RUN_LOG_H_
+#define CERES_ED_EVALUATION_RUN_LOG_H_
+
+#include <ceres_ed/evaluation/sequence_evaluation.h>
+#include <ceres_ed/io/results/frames_csv.h>
+
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ceres_ed {
+
+struct LogSummary {
+  std::map<std::string, int> frames_by_status;
+  // Of frames that have an rms_plane and did not count 0 inliers; metres.
+  AcrossFrames rms_plane;
+  double rms_plane_last = 0.0;
+  // Median of every column t_..., by its name; seconds.
+  std::vector<std::pair<std::string, double>> median_times_s;
+  // nodes, pr and map_points of the last row that has them.
+  std::vector<std::pair<std::string, double>> at_the_end;
+};
+
+// Returns the summary of a log; parts whose columns are missing are empty or zero.
+LogSummary SummarizeLog(const FrameLog& log);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_EVALUATION_RUN_LOG_H_

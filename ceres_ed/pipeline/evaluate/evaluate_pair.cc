@@ -1,0 +1,67 @@
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/io/results/error_cloud.h>
+#include <ceres_ed/pipeline/evaluate/evaluate_run.h>
+#include <ceres_ed/pipeline/evaluate/pair_report.h>
+#include <ceres_ed/pipeline/outputs.h>
+#include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/version.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace ceres_ed {
+namespace {
+
+Status Load(const std::string& path, PointCloud* cloud) {
+  if (path.empty()) return Status::Ok();
+  StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  if (loaded.ok()) *cloud = std::move(loaded->cloud);
+  return loaded.status();
+}
+
+}  // namespace
+
+Outcome RunEvaluation(const EvalSettings& settings, EvaluateObserver* observer) {
+  for (const std::string& output : {settings.report, settings.error_ply}) {
+    if (output.empty()) continue;
+    if (Status status = PrepareOutput(output); !status.ok()) return Outcome::BadInput(status);
+  }
+  return settings.is_sequence() ? EvaluateSequence(settings, observer)
+                                : EvaluatePair(settings, observer);
+}
+
+Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer) {
+  PointCloud result, target, source, truth_cloud;
+  for (const Status& status : {Load(settings.fitted, &result),
+                               Load(settings.target, &target),
+                               Load(settings.source, &source),
+                               Load(settings.truth, &truth_cloud)}) {
+    if (!status.ok()) return Outcome::BadInput(status);
+  }
+  const PointCloud* truth = settings.truth.empty() ? nullptr : &truth_cloud;
+  const StatusOr<Evaluation> evaluation =
+      Evaluate(result, target, settings.source.empty() ? nullptr : &source, truth);
+  if (!evaluation.ok()) return Outcome::BadInput(evaluation.status());
+
+  if (!settings.report.empty()) {
+    nlohmann::ordered_json report = {{"program", "ed_eval"}, {"version", kVersion}};
+    report["result"] = {{"path", settings.fitted}, {"points", result.size()}};
+    report["target"] = {{"path", settings.target}, {"points", target.size()}};
+    report.update(EvaluationReport(*evaluation));
+    report["flags"] = FlagsReport(settings.flags);
+    if (Status status = WriteReport(settings.report, report); !status.ok()) {
+      return Outcome::BadInput(status);
+    }
+  }
+  if (!settings.error_ply.empty()) {
+    const std::vector<double> errors =
+        truth != nullptr ? PointDistances(result, *truth) : SurfaceDistances(result.points, target);
+    Status status = WriteErrorCloud(settings.error_ply, result, errors, Summarize(errors).p95);
+    if (!status.ok()) return Outcome::BadInput(status);
+  }
+  observer->OnPair(*evaluation);
+  return Outcome::Done();
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,94 @@
+#include <ceres_ed/evaluation/sequence_files.h>
+#include <ceres_ed/io/results/live_cloud_io.h>
+#include <ceres_ed/pipeline/evaluate/evaluate_run.h>
+#include <ceres_ed/pipeline/evaluate/sequence_report.h>
+#include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/version.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ceres_ed {
+namespace {
+
+constexpr SequenceEvaluationOptions kOptions;
+constexpr TrackFollowingOptions kTrackOptions;
+
+StatusOr<SequenceFigures> Measure(const SequenceFiles& sequence,
+                                  const ResultFiles& result,
+                                  RunObserver* observer,
+                                  std::vector<std::string>* warnings) {
+  const PinholeCamera& camera = sequence.camera;
+  SequenceFigures figures;
+  figures.log = result.log;
+  std::optional<TruthEvaluator> truth;
+  if (sequence.truth) truth.emplace(camera, *sequence.truth, kOptions);
+  std::optional<TrackFollower> tracks;
+  if (!sequence.tracks.empty()) tracks.emplace(camera, sequence.tracks, kTrackOptions);
+
+  const int total = static_cast<int>(result.live_paths.size());
+  int done = 0;
+  for (const auto& [frame, path] : result.live_paths) {
+    const StatusOr<LiveSnapshot> snapshot = ReadLiveCloud(path, frame, warnings);
+    if (!snapshot.ok()) return snapshot.status();
+    if (truth) {
+      const StatusOr<FrameTruthError> error = truth->Evaluate(*snapshot);
+      if (!error.ok()) return Status::Error(path + ": " + error.status().message());
+      figures.truth.push_back(*error);
+    }
+    const StatusOr<std::optional<DepthImage>> depth = sequence.LoadDepth(frame, warnings);
+    if (!depth.ok()) return depth.status();
+    if (*depth) figures.depth.push_back(CompareWithDepth(camera, *snapshot, **depth, kOptions));
+    if (tracks) tracks->Add(*snapshot);
+    observer->OnProgress(++done, total, "frame " + std::to_string(frame));
+  }
+  if (tracks) figures.tracks = tracks->Evaluate();
+  if (!sequence.true_poses.empty() && !result.trajectory.empty()) {
+    const auto evaluation = EvaluateTrajectory(result.trajectory, sequence.true_poses);
+    if (evaluation.ok()) {
+      figures.camera = *evaluation;
+    } else {
+      warnings->push_back("trajectory.txt: " + evaluation.status().message());
+    }
+  }
+  return figures;
+}
+
+nlohmann::ordered_json OptionsReport() {
+  return {{"max_birth_offset", kOptions.max_birth_offset},
+          {"visibility_tolerance", kOptions.visibility_tolerance},
+          {"track_neighbors", kTrackOptions.neighbors},
+          {"track_max_distance", kTrackOptions.max_distance}};
+}
+
+}  // namespace
+
+Outcome EvaluateSequence(const EvalSettings& settings, EvaluateObserver* observer) {
+  const StatusOr<SequenceFiles> sequence = OpenSequenceFiles(settings.sequence);
+  if (!sequence.ok()) return Outcome::BadInput(sequence.status());
+  const StatusOr<ResultFiles> result =
+      LoadResultFiles(settings.result, settings.sequence, *sequence);
+  if (!result.ok()) return Outcome::BadInput(result.status());
+  std::vector<std::string> warnings = result->warnings;
+  const StatusOr<SequenceFigures> figures = Measure(*sequence, *result, observer, &warnings);
+  if (!figures.ok()) return Outcome::BadInput(figures.status());
+
+  for (const std::string& warning : warnings) observer->OnWarning(warning);
+  if (!settings.report.empty()) {
+    nlohmann::ordered_json report = {{"program", "ed_eval"}, {"version", kVersion}};
+    report["sequence"] = {{"path", settings.sequence}};
+    report["result"] = {{"path", settings.result}, {"live_clouds", result->live_paths.size()}};
+    report.update(SequenceReport(*figures));
+    report["options"] = OptionsReport();
+    report["warnings"] = warnings;
+    report["flags"] = FlagsReport(settings.flags);
+    if (Status status = WriteReport(settings.report, report); !status.ok()) {
+      return Outcome::BadInput(status);
+    }
+  }
+  observer->OnSequence(*figures);
+  return Outcome::Done();
+}
+
+}  // namespace ceres_ed

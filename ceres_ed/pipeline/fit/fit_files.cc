@@ -1,0 +1,143 @@
+#include "ceres_ed/pipeline/fit/fit_files.h"
+
+#include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/io/graph_io.h>
+#include <ceres_ed/io/point_list_io.h>
+#include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/pipeline/outputs.h>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+int NumRows(const PlyDocument& document, const char* element) {
+  const PlyElement* found = document.Find(element);
+  return found == nullptr ? 0 : static_cast<int>(found->count);
+}
+
+CloudFile Describe(const std::string& path, const LoadedCloud& loaded) {
+  return {path,
+          NumRows(loaded.document, "vertex"),
+          NumRows(loaded.document, "face"),
+          Diagonal(loaded.cloud.points)};
+}
+
+// Which point a vertex of the source's file became; -1 where it was dropped.
+std::vector<int> PointsOfVertices(const FitFiles& files) {
+  std::vector<int> points(files.source.points, -1);
+  for (std::size_t i = 0; i < files.vertex_of_point.size(); ++i) {
+    points[files.vertex_of_point[i]] = static_cast<int>(i);
+  }
+  return points;
+}
+
+Status NotFinite(const std::string& list, int vertex, const std::string& source) {
+  return Status::Error(list + ": names vertex " + std::to_string(vertex) +
+                       ", which is not finite in " + source + ", expected a finite one");
+}
+
+Status LoadLandmarks(const std::string& path, FitFiles* files) {
+  const StatusOr<std::vector<Landmark>> landmarks = ReadLandmarks(path, files->source.points);
+  if (!landmarks.ok()) return landmarks.status();
+  const std::vector<int> points = PointsOfVertices(*files);
+  for (const Landmark& landmark : *landmarks) {
+    const int point = points[landmark.index];
+    if (point < 0) return NotFinite(path, landmark.index, files->source.path);
+    files->input.landmarks.push_back({point, landmark.position});
+  }
+  return Status::Ok();
+}
+
+Status LoadFixed(const std::string& path, FitFiles* files) {
+  const StatusOr<std::vector<int>> vertices = ReadVertexList(path, files->source.points);
+  if (!vertices.ok()) return vertices.status();
+  const std::vector<int> points = PointsOfVertices(*files);
+  for (const int vertex : *vertices) {
+    if (points[vertex] < 0) return NotFinite(path, vertex, files->source.path);
+    files->input.fixed_points.push_back(points[vertex]);
+  }
+  return Status::Ok();
+}
+
+void Append(const std::vector<std::string>& from, std::vector<std::string>* to) {
+  to->insert(to->end(), from.begin(), from.end());
+}
+
+// The source's file with a property std_dev; kUnknown where nothing is known of a vertex, for not
+// every reader of ASCII knows "nan".
+PlyDocument WithDeviations(const FitFiles& files, const std::vector<double>& std_dev) {
+  constexpr double kUnknown = -1.0;
+  PlyDocument document = files.source_document;
+  PlyElement* const vertices = document.Find("vertex");
+  std::vector<double> values(vertices->count, kUnknown);
+  for (std::size_t i = 0; i < std_dev.size(); ++i) {
+    if (std::isfinite(std_dev[i])) values[files.vertex_of_point[i]] = std_dev[i];
+  }
+  PlyProperty property = MakePlyScalar("std_dev", PlyType::kFloat32, std::move(values));
+  if (PlyProperty* const there = vertices->Find("std_dev"); there != nullptr) {
+    *there = std::move(property);
+  } else {
+    vertices->properties.push_back(std::move(property));
+  }
+  return document;
+}
+
+}  // namespace
+
+StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
+  FitFiles files;
+  StatusOr<LoadedCloud> source = LoadCloud(settings.source);
+  if (!source.ok()) return source.status();
+  files.source = Describe(settings.source, *source);
+  files.input.source = std::move(source->cloud);
+  files.source_document = std::move(source->document);
+  files.vertex_of_point = std::move(source->vertex_of_point);
+  Append(source->warnings, &files.warnings);
+  if (!settings.target.empty()) {
+    StatusOr<LoadedCloud> target = LoadCloud(settings.target);
+    if (!target.ok()) return target.status();
+    files.target = Describe(settings.target, *target);
+    files.input.target = std::move(target->cloud);
+    Append(target->warnings, &files.warnings);
+  }
+  if (!settings.landmarks.empty()) {
+    if (Status status = LoadLandmarks(settings.landmarks, &files); !status.ok()) return status;
+  }
+  if (!settings.fixed.empty()) {
+    if (Status status = LoadFixed(settings.fixed, &files); !status.ok()) return status;
+  }
+  if (settings.options.rigid_first && !files.input.fixed_points.empty()) {
+    files.warnings.push_back("no rigid motion is sought: --fixed settles where the source stands");
+  }
+  return files;
+}
+
+Status PrepareOutputs(const FitSettings& settings) {
+  for (const std::string* path :
+       {&settings.output, &settings.warp, &settings.graph, &settings.report}) {
+    if (path->empty()) continue;
+    if (Status status = PrepareOutput(*path); !status.ok()) return status;
+  }
+  return Status::Ok();
+}
+
+Status WriteFitFiles(const FitSettings& settings, const FitFiles& files, const FitResult& result) {
+  const bool has_deviations = !result.uncertainty.std_dev.empty();
+  Status status = SaveCloud(
+      settings.output,
+      has_deviations ? WithDeviations(files, result.uncertainty.std_dev) : files.source_document,
+      files.vertex_of_point,
+      result.points,
+      result.normals.empty() ? nullptr : &result.normals);
+  if (status.ok() && !settings.warp.empty()) status = WriteWarp(settings.warp, result.warp);
+  if (!status.ok() || settings.graph.empty()) return status;
+  GraphWriteOptions options;
+  options.output_from_graph = result.warp.target_from_source;
+  options.is_point_relevant.assign(result.point_relevant.begin(), result.point_relevant.end());
+  return WriteGraph(settings.graph, result.warp.graph, result.warp.state, options);
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,174 @@
+#include "ceres_ed/pipeline/fit/fit_report.h"
+
+#include <ceres_ed/linear_algebra/linear_algebra_backend.h>
+#include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/mode_names.h>
+#include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/version.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace ceres_ed {
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json CloudReport(const CloudFile& file) {
+  if (file.path.empty()) return nullptr;
+  return {{"path", file.path},
+          {"points", file.points},
+          {"faces", file.faces},
+          {"diagonal", file.diagonal}};
+}
+
+ordered_json NodesReport(const FitResult& result) {
+  const int total = result.warp.graph.num_nodes();
+  const int pr = NumPointRelevant(result);
+  return {
+      {"total", total}, {"pr", pr}, {"pi", total - pr}, {"edges", result.warp.graph.num_edges()}};
+}
+
+ordered_json EnergyReport(const FitResult& result) {
+  ordered_json terms = ordered_json::object();
+  for (const TermEnergy& term : result.final_energy.terms) {
+    // A user may add an energy that is there already.
+    std::string name = term.label;
+    for (int copy = 2; terms.contains(name); ++copy) name = term.label + "_" + std::to_string(copy);
+    terms[name] = {{"weighted", term.weighted}, {"raw", term.raw}, {"residuals", term.residuals}};
+  }
+  return {{"initial", result.initial_energy.Total()},
+          {"final", result.final_energy.Total()},
+          {"terms", terms}};
+}
+
+// Null where it was not asked for, or could not be had.
+ordered_json CovarianceReport(const FitUncertainty& uncertainty) {
+  if (uncertainty.std_dev.empty()) return nullptr;
+  std::vector<double> known;
+  for (const double deviation : uncertainty.std_dev) {
+    if (std::isfinite(deviation)) known.push_back(deviation);
+  }
+  ordered_json report = ordered_json::object();
+  if (!known.empty()) {
+    std::sort(known.begin(), known.end());
+    double sum = 0.0;
+    for (const double deviation : known) sum += deviation;
+    const auto quantile = [&known](double share) {
+      return known[static_cast<std::size_t>(share * static_cast<double>(known.size() - 1))];
+    };
+    report = {{"mean", sum / static_cast<double>(known.size())},
+              {"median", quantile(0.5)},
+              {"p95", quantile(0.95)},
+              {"max", known.back()}};
+  }
+  report["undetermined_points"] = uncertainty.std_dev.size() - known.size();
+  report["undetermined_nodes"] = uncertainty.undetermined_nodes;
+  report["variance_factor"] = uncertainty.variance_factor;
+  report["time_s"] = uncertainty.time;
+  return report;
+}
+
+ordered_json RigidReport(const Similarity& rigid) {
+  constexpr double kDegreesPerRadian = 180.0 / M_PI;
+  const double angle = Eigen::AngleAxisd(rigid.rotation).angle();
+  const Eigen::Vector3d& translation = rigid.translation;
+  return {{"rotation_deg", std::min(angle, 2.0 * M_PI - angle) * kDegreesPerRadian},
+          {"translation", {translation.x(), translation.y(), translation.z()}},
+          {"scale", rigid.scale}};
+}
+
+ordered_json DisplacementReport(const FitRun& run) {
+  double sum = 0.0;
+  double max = 0.0;
+  const std::vector<Eigen::Vector3d>& points = run.result->points;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double distance = (points[i] - run.files->input.source.points[i]).norm();
+    sum += distance;
+    max = std::max(max, distance);
+  }
+  return {{"mean", points.empty() ? 0.0 : sum / static_cast<double>(points.size())}, {"max", max}};
+}
+
+ordered_json TimeReport(const FitRun& run) {
+  const FitTimes& times = run.result->times;
+  const bool has_levels = run.settings->options.strategy.mode != SolveMode::kBatch;
+  return {{"total", run.total_s},
+          {"load", run.load_s},
+          {"rigid", times.rigid},
+          {"prepare", times.prepare},
+          {"graph", times.graph},
+          {"associate", times.associate},
+          {"build", times.build},
+          {"solve", times.solve},
+          {"level1", has_levels ? times.level1 : 0.0},
+          {"level2", has_levels ? times.level2 : 0.0},
+          {"finish", times.finish},
+          {"write", run.write_s}};
+}
+
+// Energies of the user that have no residuals at the end of the fit.
+std::vector<std::string> IdleEnergies(const FitRun& run) {
+  std::vector<std::string> names;
+  if (!run.result->IsUsable()) return names;
+  for (const EnergySpec& spec : run.settings->options.extra_energies) {
+    for (const TermEnergy& term : run.result->final_energy.terms) {
+      if (term.label == spec.name && term.residuals == 0) names.push_back(spec.name);
+    }
+  }
+  return names;
+}
+
+}  // namespace
+
+std::vector<std::string> FitWarnings(const FitRun& run) {
+  std::vector<std::string> warnings = run.files->warnings;
+  warnings.insert(warnings.end(), run.result->warnings.begin(), run.result->warnings.end());
+  const FitOptions& options = run.settings->options;
+  const auto add = [&warnings](const std::vector<std::string>& more) {
+    warnings.insert(warnings.end(), more.begin(), more.end());
+  };
+  add(IdlePluginWarnings(*run.registry, options.extra_energies));
+  add(IdleEnergyWarnings(*run.registry, IdleEnergies(run)));
+  BackendUse use;
+  use.ceres = options.strategy.linear_solver == LinearSolver::kCeres;
+  for (const std::string& warning : BackendWarnings(DescribeBackend(), use)) {
+    warnings.push_back(warning);
+  }
+  return warnings;
+}
+
+ordered_json FitReport(const FitRun& run) {
+  const FitResult& result = *run.result;
+  const LandmarkErrors landmarks = MeasureLandmarks(run);
+  return {
+      {"program", "ed_fit"},
+      {"version", kVersion},
+      {"mode", SolveModeName(run.settings->options.strategy.mode)},
+      {"status", SolveStatusName(result.status)},
+      {"message", result.message},
+      {"source", CloudReport(run.files->source)},
+      {"target", CloudReport(run.files->target)},
+      {"nodes", NodesReport(result)},
+      {"inliers", result.matches.inliers},
+      {"outer_iterations", result.outer_iterations},
+      {"solver_iterations", result.solver_iterations},
+      {"energy", EnergyReport(result)},
+      {"rms",
+       {{"point_to_plane", result.matches.rms_plane},
+        {"point_to_point", result.matches.rms_point}}},
+      {"noise", result.noise},
+      {"landmarks", {{"count", landmarks.count}, {"rms", landmarks.rms}, {"max", landmarks.max}}},
+      {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
+      {"rigid", RigidReport(result.rigid)},
+      {"covariance", CovarianceReport(result.uncertainty)},
+      {"displacement", DisplacementReport(run)},
+      {"time_s", TimeReport(run)},
+      {"threads", run.settings->options.num_threads},
+      {"warnings", run.warnings},
+      {"flags", FlagsReport(run.settings->flags)},
+      {"backend", BackendReport()}};
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,101 @@
+#include "ceres_ed/pipeline/fit/fit_run.h"
+
+#include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/fit/fit_report.h>
+#include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/registration/fit.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace ceres_ed {
+namespace {
+
+StatusOr<FitResult> FitWithProgress(const FitInput& input,
+                                    FitOptions options,
+                                    double seconds_gone,
+                                    const EnergyRegistry& registry,
+                                    RunObserver* observer) {
+  options.time_limit_s = std::max(1e-3, options.time_limit_s - seconds_gone);
+  options.should_stop = [observer] { return observer->ShouldStop(); };
+  options.on_progress = [observer](const FitProgress& progress) {
+    constexpr int kSteps = 100;
+    observer->OnProgress(static_cast<int>(std::lround(kSteps * progress.fraction)),
+                         kSteps,
+                         progress.stage + ", " + std::to_string(progress.inliers) + " inliers");
+  };
+  return Fit(input, options, registry);
+}
+
+// Writes what there is and says how the run ended.
+Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
+  const FitSettings& settings = *run.settings;
+  const FitResult& result = *run.result;
+  run.warnings = FitWarnings(run);
+  for (const std::string& warning : run.warnings) observer->OnWarning(warning);
+  if (result.IsUsable()) {
+    const Timer timer;
+    Status status = WriteFitFiles(settings, *run.files, result);
+    if (!status.ok()) return Outcome::BadInput(status);
+    run.write_s = timer.Seconds();
+  }
+  run.total_s = clock.Seconds();
+  if (!settings.report.empty()) {
+    Status status = WriteReport(settings.report, FitReport(run));
+    if (!status.ok()) return Outcome::BadInput(status);
+  }
+  if (!result.IsUsable()) return Outcome::NoResult(Status::Error(result.message));
+  observer->OnEnd(run);
+  const bool stopped =
+      result.status == SolveStatus::kTimeLimit || result.status == SolveStatus::kInterrupted;
+  return stopped ? Outcome::StoppedEarly(result.message + " in " + settings.output)
+                 : Outcome::Done();
+}
+
+}  // namespace
+
+LandmarkErrors MeasureLandmarks(const FitRun& run) {
+  LandmarkErrors errors;
+  double sum = 0.0;
+  for (const PointConstraint& landmark : run.files->input.landmarks) {
+    if (run.result->points.empty()) break;
+    const double error = (run.result->points[landmark.point] - landmark.position).norm();
+    sum += error * error;
+    errors.max = std::max(errors.max, error);
+  }
+  errors.count = static_cast<int>(run.files->input.landmarks.size());
+  if (errors.count > 0) errors.rms = std::sqrt(sum / errors.count);
+  return errors;
+}
+
+int NumPointRelevant(const FitResult& result) {
+  return static_cast<int>(result.point_relevant.size() - std::count(result.point_relevant.begin(),
+                                                                    result.point_relevant.end(),
+                                                                    0));
+}
+
+Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* observer) {
+  if (settings.target.empty() && settings.landmarks.empty()) {
+    return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
+  }
+  EnergyRegistry registry;
+  const Outcome energies =
+      LoadEnergies(settings.plugin, settings.options.extra_energies, &registry);
+  if (!energies.done()) return energies;
+  const Status status = PrepareOutputs(settings);
+  if (!status.ok()) return Outcome::BadInput(status);
+
+  const StatusOr<FitFiles> files = LoadFitFiles(settings);
+  if (!files.ok()) return Outcome::BadInput(files.status());
+  const double load_s = clock.Seconds();
+  const StatusOr<FitResult> result =
+      FitWithProgress(files->input, settings.options, load_s, registry, observer);
+  if (!result.ok()) {
+    const std::string inputs =
+        settings.source + (settings.target.empty() ? "" : ", " + settings.target);
+    return Outcome::BadInput(Status::Error(inputs + ": " + result.status().message()));
+  }
+  return Conclude({&settings, &*files, &*result, &registry, load_s}, clock, observer);
+}
+
+}  // namespace ceres_ed

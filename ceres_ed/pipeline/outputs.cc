@@ -1,0 +1,24 @@
+#include "ceres_ed/pipeline/outputs.h"
+
+#include <ceres_ed/io/atomic_file.h>
+
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+namespace ceres_ed {
+
+Status PrepareOutput(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  if (error) {
+    return Status::Error(path + ": the folder " + folder.string() +
+                         " cannot be made: " + error.message());
+  }
+  // Made and thrown away: what permissions and mounts allow is for the system to say.
+  const StatusOr<std::unique_ptr<AtomicFile>> probe = AtomicFile::Create(path);
+  return probe.status();
+}
+
+}  // namespace ceres_ed

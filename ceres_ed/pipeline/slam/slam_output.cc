@@ -1,0 +1,213 @@
+#include "ceres_ed/pipeline/slam/slam_output.h"
+
+#include <ceres_ed/io/atomic_file.h>
+#include <ceres_ed/io/graph_io.h>
+#include <ceres_ed/io/results/live_cloud_io.h>
+#include <ceres_ed/io/results/map_ply.h>
+#include <ceres_ed/io/results/tracks_csv.h>
+#include <ceres_ed/io/results/trajectory_txt.h>
+#include <ceres_ed/io/text.h>
+#include <ceres_ed/pipeline/slam/map_export.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace ceres_ed {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr char kFrames[] = "frames.csv";
+constexpr char kTrajectory[] = "trajectory.txt";
+constexpr char kTracks[] = "tracks.csv";
+constexpr char kMap[] = "map.ply";
+constexpr char kGraph[] = "graph.ply";
+
+// A killed run may have left a file under its temporary name, NAME.tmp.PID.N.
+std::string WithoutTemporaryEnd(const std::string& name) {
+  return name.substr(0, std::min(name.find(".tmp."), name.size()));
+}
+
+bool IsResultName(const std::string& name) {
+  for (const char* known :
+       {kFrames, kTrajectory, kTracks, kMap, kGraph, kReportName, kCheckpointName}) {
+    if (name == known) return true;
+  }
+  return false;
+}
+
+// Removes the files of a folder whose name `goes`.
+template <typename Predicate>
+void RemoveFiles(const std::string& directory, Predicate goes) {
+  std::error_code error;
+  std::vector<fs::path> gone;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory, error)) {
+    std::error_code no_file;
+    if (goes(entry.path().filename().string()) && entry.is_regular_file(no_file)) {
+      gone.push_back(entry.path());
+    }
+  }
+  for (const fs::path& path : gone) fs::remove(path, error);
+}
+
+void RemoveLeftOvers(const std::string& directory, bool results_too) {
+  const auto goes = [results_too](const std::string& name) {
+    return results_too || name.find(".tmp.") != std::string::npos;
+  };
+  RemoveFiles(directory, [&](const std::string& name) {
+    return goes(name) && IsResultName(WithoutTemporaryEnd(name));
+  });
+  RemoveFiles(directory + "/live", [&](const std::string& name) {
+    return goes(name) && IsLiveCloudName(WithoutTemporaryEnd(name));
+  });
+}
+
+Status MakeFolders(const std::string& directory) {
+  std::error_code error;
+  fs::create_directories(directory + "/live", error);
+  if (error) {
+    return Status::Error(directory + ": cannot be made a folder: " + error.message());
+  }
+  // What permissions and mounts allow is for the system to say.
+  const auto probe = AtomicFile::Create(directory + "/" + kFrames);
+  return probe.ok() ? Status::Ok() : probe.status();
+}
+
+// Bytes of frames.csv, trajectory.txt and tracks.csv; -1 for one that isn't there yet.
+struct FileSizes {
+  double frames = -1.0;
+  double trajectory = -1.0;
+  double tracks = -1.0;
+
+  void Exchange(CheckpointArchive* archive) {
+    archive->Enter("file_sizes");
+    archive->Value("frames", &frames);
+    archive->Value("trajectory", &trajectory);
+    archive->Value("tracks", &tracks);
+    archive->Leave();
+  }
+};
+
+Status ReopenFile(const std::string& path, double size, AppendFile* file) {
+  if (size < 0.0) return Status::Ok();
+  StatusOr<AppendFile> reopened = AppendFile::Reopen(path, static_cast<std::int64_t>(size));
+  if (reopened.ok()) *file = *std::move(reopened);
+  return reopened.status();
+}
+
+}  // namespace
+
+bool HoldsResult(const std::string& directory) {
+  const StatusOr<std::string> text = ReadWholeFile(directory + "/" + kReportName);
+  if (!text.ok()) return false;
+  const auto report = nlohmann::json::parse(*text, nullptr, /*allow_exceptions=*/false);
+  if (!report.is_object()) return true;
+  const auto status = report.find("status");
+  return status == report.end() || (*status != "running" && *status != "failed");
+}
+
+StatusOr<std::unique_ptr<SlamOutput>> SlamOutput::Create(const std::string& directory,
+                                                         const PinholeCamera& camera) {
+  Status status = MakeFolders(directory);
+  if (!status.ok()) return status;
+  RemoveLeftOvers(directory, /*results_too=*/true);
+  std::unique_ptr<SlamOutput> output(new SlamOutput(directory, camera));
+  StatusOr<AppendFile> frames = AppendFile::Create(output->Path(kFrames));
+  if (!frames.ok()) return frames.status();
+  output->frames_ = *std::move(frames);
+  StatusOr<AppendFile> trajectory = AppendFile::Create(output->Path(kTrajectory));
+  if (!trajectory.ok()) return trajectory.status();
+  output->trajectory_ = *std::move(trajectory);
+  status = output->frames_.Append(FramesHeader());
+  if (status.ok()) status = output->trajectory_.Append(TrajectoryHeader());
+  if (!status.ok()) return status;
+  return StatusOr<std::unique_ptr<SlamOutput>>(std::move(output));
+}
+
+StatusOr<std::unique_ptr<SlamOutput>> SlamOutput::Reopen(const std::string& directory,
+                                                         const PinholeCamera& camera,
+                                                         CheckpointArchive* archive) {
+  Status status = MakeFolders(directory);
+  if (!status.ok()) return status;
+  RemoveLeftOvers(directory, /*results_too=*/false);
+  FileSizes sizes;
+  sizes.Exchange(archive);
+  if (!archive->status().ok()) return archive->status();
+  std::unique_ptr<SlamOutput> output(new SlamOutput(directory, camera));
+  status = ReopenFile(output->Path(kFrames), sizes.frames, &output->frames_);
+  if (status.ok()) {
+    status = ReopenFile(output->Path(kTrajectory), sizes.trajectory, &output->trajectory_);
+  }
+  if (status.ok()) status = ReopenFile(output->Path(kTracks), sizes.tracks, &output->tracks_);
+  if (!status.ok()) return status;
+  return StatusOr<std::unique_ptr<SlamOutput>>(std::move(output));
+}
+
+void SlamOutput::Save(CheckpointArchive* archive) const {
+  const auto size = [](const AppendFile& file) {
+    return file.is_open() ? static_cast<double>(file.size()) : -1.0;
+  };
+  FileSizes sizes;
+  sizes.frames = size(frames_);
+  sizes.trajectory = size(trajectory_);
+  sizes.tracks = size(tracks_);
+  sizes.Exchange(archive);
+}
+
+Status SlamOutput::WriteFrame(const FrameRecord& record,
+                              const DeformableSlam& slam,
+                              const FrameOutput& options) {
+  if (!HasPose(record)) return Status::Ok();
+  if (options.live) {
+    const std::string path = Path("live/" + LiveCloudName(record.number));
+    Status status = WriteLiveCloud(path, ExportLivePoints(slam));
+    if (!status.ok()) return status;
+  }
+  if (options.tracked != nullptr) {
+    Status status = WriteTracks(record.number, slam, *options.tracked);
+    if (!status.ok()) return status;
+  }
+  return trajectory_.Append(TrajectoryRow(options.time_s, ExportCameraPose(slam)));
+}
+
+Status SlamOutput::WriteRecord(const FrameRecord& record) {
+  return frames_.Append(FramesRow(record));
+}
+
+Status SlamOutput::WriteTracks(int frame,
+                               const DeformableSlam& slam,
+                               const TrackedPoints& tracked) {
+  std::string rows;
+  if (!tracks_.is_open()) {
+    StatusOr<AppendFile> file = AppendFile::Create(Path(kTracks));
+    if (!file.ok()) return file.status();
+    tracks_ = *std::move(file);
+    rows = TracksHeader();
+  }
+  const std::vector<TrackedPlace> places = tracked.Locate(slam, camera_);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const int id = tracked.id(static_cast<int>(i));
+    rows += TracksRow(frame, id, places[i].in_camera, places[i].visible);
+  }
+  return tracks_.Append(rows);
+}
+
+Status SlamOutput::WriteMap(const DeformableSlam& slam) const {
+  Status status = WriteMapCloud(Path(kMap), ExportMap(slam));
+  if (!status.ok()) return status;
+  const Warp warp = ExportWarp(slam);
+  GraphWriteOptions options;
+  options.with_colors = true;
+  for (int j = 0; j < warp.graph.num_nodes(); ++j) {
+    options.is_point_relevant.push_back(slam.HasData(j));
+  }
+  return WriteGraph(Path(kGraph), warp.graph, warp.state, options);
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,153 @@
+#include "ceres_ed/pipeline/slam/slam_report.h"
+
+#include <ceres_ed/pipeline/mode_names.h>
+#include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/pipeline/slam/frame_records.h>
+#include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/version.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <fstream>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+namespace ceres_ed {
+namespace {
+
+using nlohmann::ordered_json;
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
+double Mean(const std::vector<double>& values) {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+ordered_json Statistics(const std::vector<double>& values) {
+  return {{"median", Median(values)},
+          {"mean", Mean(values)},
+          {"max", values.empty() ? 0.0 : *std::max_element(values.begin(), values.end())}};
+}
+
+// The most memory that the process has held, MiB.
+double PeakMemoryMib() {
+  struct rusage usage;
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_maxrss) / 1024.0;
+}
+
+// What it holds now, MiB; 0 where the system doesn't say.
+double ResidentMemoryMib() {
+  std::ifstream file("/proc/self/statm");
+  double total = 0.0, resident = 0.0;
+  if (!(file >> total >> resident)) return 0.0;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
+}
+
+// The map's share, by owner, in bytes.
+ordered_json MemoryReport(const DeformableSlam& slam) {
+  const MapMemory memory = slam.Memory();
+  const auto per = [](std::size_t bytes, int count) {
+    return static_cast<double>(bytes) / std::max(1, count);
+  };
+  return {{"map", memory.Total()},
+          {"nodes", memory.nodes},
+          {"edges", memory.edges},
+          {"node_index", memory.node_index},
+          {"tissue_memory", memory.tissue_memory},
+          {"levels", memory.levels},
+          {"points", memory.points},
+          {"bindings", memory.bindings},
+          {"point_lists", memory.point_lists},
+          {"per_node", per(memory.OfNodes(), slam.map().graph().num_nodes())},
+          {"per_point", per(memory.OfPoints(), slam.map().num_points())},
+          {"resident_mib", ResidentMemoryMib()}};
+}
+
+ordered_json SequenceReport(const SlamRun& run) {
+  const DepthSequence& sequence = *run.sequence;
+  const PinholeCamera& camera = sequence.camera();
+  return {{"path", run.settings->input},
+          {"description", sequence.description()},
+          {"frames", sequence.num_frames()},
+          {"first", sequence.frame_number(0)},
+          {"last", sequence.frame_number(sequence.num_frames() - 1)},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"depth_units_per_metre", sequence.depth_units_per_metre()},
+          {"color", sequence.has_color()}};
+}
+
+ordered_json FramesReport(const std::vector<FrameRecord>& records) {
+  ordered_json report = {{"processed", records.size()}};
+  for (const FrameStatus status : {FrameStatus::kInitialized,
+                                   FrameStatus::kTracked,
+                                   FrameStatus::kRelocalized,
+                                   FrameStatus::kLost,
+                                   FrameStatus::kSkipped}) {
+    report[FrameStatusName(status)] = CountFrames(records, status);
+  }
+  return report;
+}
+
+ordered_json NodesReport(const DeformableSlam& slam) {
+  const int total = slam.map().graph().num_nodes();
+  int pr = 0;
+  for (int j = 0; j < total; ++j) pr += slam.HasData(j) ? 1 : 0;
+  return {
+      {"total", total}, {"pr", pr}, {"pi", total - pr}, {"edges", slam.map().graph().num_edges()}};
+}
+
+ordered_json TimeReport(const SlamRun& run) {
+  ordered_json report = {{"total", run.total_s}};
+  for (const char* column : kFrameColumns) {
+    const std::string name = column;
+    if (name.rfind("t_", 0) == 0) report[name] = Statistics(ColumnOf(*run.records, name));
+  }
+  return report;
+}
+
+}  // namespace
+
+ordered_json SlamReport(const SlamRun& run) {
+  const SlamOptions& options = run.settings->options;
+  const DeformableSlam& slam = *run.slam;
+  return {{"program", "ed_slam"},
+          {"version", kVersion},
+          {"mode", SolveModeName(options.levels.strategy.mode)},
+          {"camera", CameraModeName(options.camera)},
+          {"status", run.status},
+          {"message", run.message},
+          {"sequence", SequenceReport(run)},
+          {"frames", FramesReport(*run.records)},
+          {"nodes", NodesReport(slam)},
+          {"map", {{"points", slam.map().num_points()}, {"node_spacing", slam.unit()}}},
+          {"derived",
+           {{"node_spacing", slam.unit()},
+            {"point_spacing", options.growth.point_spacing * slam.unit()},
+            {"features", options.features && run.sequence->has_color()}}},
+          {"rms_plane", Statistics(ColumnOf(*run.records, "rms_plane"))},
+          {"time_s", TimeReport(run)},
+          {"memory_peak_mib", PeakMemoryMib()},
+          {"memory", MemoryReport(slam)},
+          {"threads", options.num_threads},
+          {"warnings", *run.warnings},
+          {"flags", FlagsReport(run.settings->flags)},
+          {"backend", BackendReport()}};
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,91 @@
+#include "ceres_ed/pipeline/slam/slam_run.h"
+
+#include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/slam/slam_output.h>
+#include <ceres_ed/pipeline/slam/slam_session.h>
+#include <ceres_ed/pipeline/slam/warning_log.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace ceres_ed {
+namespace {
+
+bool HasPoses(const DepthSequence& sequence) {
+  for (int i = 0; i < sequence.num_frames(); ++i) {
+    if (sequence.given_pose(i) != nullptr) return true;
+  }
+  return false;
+}
+
+// The points to follow; their ids are the rows of the file.
+StatusOr<std::vector<NamedPoint>> LoadPoints(const std::string& path, WarningLog* warnings) {
+  std::vector<NamedPoint> points;
+  if (path.empty()) return points;
+  const StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  if (!loaded.ok()) return loaded.status();
+  for (const std::string& warning : loaded->warnings) warnings->Add("track", warning);
+  for (std::size_t i = 0; i < loaded->cloud.size(); ++i) {
+    points.push_back({loaded->vertex_of_point[i], loaded->cloud.points[i]});
+  }
+  return points;
+}
+
+// A run empties its output folder of what an earlier one has left there.
+Outcome CheckOutputFolder(const SlamSettings& settings) {
+  std::error_code error;
+  if (std::filesystem::equivalent(settings.input, settings.output, error)) {
+    return Outcome::Usage("--output=" + settings.output +
+                          " is the folder of the sequence, expected another one");
+  }
+  if (!settings.resume && !settings.overwrite && HoldsResult(settings.output)) {
+    return Outcome::Usage("--output=" + settings.output +
+                          " holds a result already, expected another folder, --resume to go on "
+                          "with it or --overwrite to replace it");
+  }
+  return Outcome::Done();
+}
+
+}  // namespace
+
+Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* observer) {
+  EnergyRegistry registry;
+  const std::vector<EnergySpec>& energies = settings.options.levels.energies;
+  Outcome outcome = LoadEnergies(settings.plugin, energies, &registry);
+  if (!outcome.done()) return outcome;
+
+  const StatusOr<std::unique_ptr<DepthSequence>> sequence =
+      OpenSequence(settings.input, settings.sequence);
+  if (!sequence.ok()) return Outcome::BadInput(sequence.status());
+  outcome = CheckOutputFolder(settings);
+  if (!outcome.done()) return outcome;
+  observer->OnNote((*sequence)->description());
+  WarningLog warnings(observer);
+  for (const std::string& warning : IdlePluginWarnings(registry, energies)) {
+    warnings.Add("plugin", warning);
+  }
+  for (const std::string& warning : (*sequence)->warnings()) warnings.Add("sequence", warning);
+  if (settings.options.camera == CameraMode::kGiven && !HasPoses(**sequence)) {
+    return Outcome::BadInput(
+        Status::Error(settings.input + ": has no poses, expected some with --camera=given"));
+  }
+  StatusOr<std::vector<NamedPoint>> points = LoadPoints(settings.track, &warnings);
+  if (!points.ok()) return Outcome::BadInput(points.status());
+  const StatusOr<std::unique_ptr<DeformableSlam>> slam =
+      DeformableSlam::Create((*sequence)->camera(), settings.options, registry);
+  if (!slam.ok()) {
+    return Outcome::BadInput(Status::Error(settings.input + ": " + slam.status().message()));
+  }
+  SlamSession session(settings, **sequence, registry, slam->get(), &warnings, observer, clock);
+  outcome = session.Start(*std::move(points));
+  return outcome.done() ? session.Run() : outcome;
+}
+
+}  // namespace ceres_ed
