@@ -82,7 +82,7 @@ build_programs tracking ed_slam ed_simulate
 sequence=$results/heart
 say "a camera circles a beating heart: simulate, track, measure"
 "$programs/ed_simulate" heart --output="$sequence" --frames=20 --width=320 --height=240 --overwrite
-"$programs/ed_slam" "$sequence" --output="$sequence-tracked"
+"$programs/ed_slam" "$sequence" --output="$sequence-tracked" --overwrite
 "$programs/ed_eval" --sequence="$sequence" --result="$sequence-tracked" \
   --report="$sequence-tracked/eval.json"
 

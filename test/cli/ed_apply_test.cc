@@ -3,6 +3,7 @@
 #include <ceres_ed/io/warp_io.h>
 
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -98,12 +99,23 @@ TEST(EdApply, NamesTheInputThatIsBad) {
 }
 
 TEST(EdApply, NamesAnOutputThatCannotBeWritten) {
-  const ProgramResult result = Apply({WriteTurn(TempPath("w3.json")),
-                                      WriteTriangle(TempPath("in3.ply")),
-                                      "--output=/nowhere/out.ply"});
+  const std::string cloud = WriteTriangle(TempPath("in3.ply"));
+  // A file is where a folder is needed.
+  const ProgramResult result =
+      Apply({WriteTurn(TempPath("w3.json")), cloud, "--output=" + cloud + "/out.ply"});
   EXPECT_EQ(result.exit_code, 2);
   ASSERT_EQ(SplitLines(result.err).size(), 1u) << result.err;
-  EXPECT_THAT(result.err, HasSubstr("/nowhere/out.ply"));
+  EXPECT_THAT(result.err, HasSubstr(cloud + "/out.ply"));
+}
+
+TEST(EdApply, MakesTheFolderOfItsOutput) {
+  const std::string folder = TempPath("new_folder");
+  std::filesystem::remove_all(folder);
+  const ProgramResult result = Apply({WriteTurn(TempPath("w4.json")),
+                                      WriteTriangle(TempPath("in4.ply")),
+                                      "--output=" + folder + "/deeper/out.ply"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/deeper/out.ply"));
 }
 
 }  // namespace

@@ -221,6 +221,33 @@ TEST_F(EdEvalSequence, GoesOnOverADepthImageThatCannotBeRead) {
   EXPECT_THAT(report["warnings"][0].get<std::string>(), HasSubstr("000001.png"));
 }
 
+TEST_F(EdEvalSequence, TakesTheTruthWithoutDepthImages) {
+  fs::remove_all(root_ / "seq/depth");
+  const nlohmann::json report = Report();
+  EXPECT_EQ(report["truth"]["frames"].size(), 3u);
+  EXPECT_TRUE(report["depth"].is_null());
+}
+
+TEST_F(EdEvalSequence, ReadsOtherLayoutsToo) {
+  // The same pictures in the layout of the TUM benchmark, with poses at half a second's distance.
+  std::string pictures = "# timestamp filename\n";
+  std::string poses = "# timestamp tx ty tz qx qy qz qw\n";
+  for (int frame = 0; frame < kFrames; ++frame) {
+    const std::string time = std::to_string(100 + frame / 2) + (frame % 2 == 0 ? ".0" : ".5");
+    pictures += time + " depth/" + FrameName(frame, ".png") + "\n";
+    poses += time + " 0 0 0 0 0 0 1\n";
+  }
+  WriteText("seq/depth.txt", pictures);
+  WriteText("seq/groundtruth.txt", poses);
+  WriteText("out/trajectory.txt", "100 1 2 3 0 0 0 1\n100.5 1 2 3 0 0 0 1\n101 1 2 3.5 0 0 0 1\n");
+  fs::remove(root_ / "seq/poses.txt");
+  const nlohmann::json report = Report();
+  EXPECT_EQ(report["truth"]["frames"].size(), 3u);
+  EXPECT_NEAR(report["truth"]["summary"]["tracking_seen_mean"]["mean"], 0.0, kRound);
+  EXPECT_EQ(report["depth"]["frames"].size(), 3u);
+  EXPECT_NEAR(report["camera"]["from_first_frame"]["translation_max"], 0.5, 1e-9);
+}
+
 TEST_F(EdEvalSequence, RefusesAResultWithoutLiveClouds) {
   fs::remove_all(root_ / "out/live");
   ExpectRefusal("out/live", "no live clouds");

@@ -1,6 +1,7 @@
 #include <ceres_ed/io/cloud_io.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
@@ -83,6 +84,18 @@ TEST(EdEval, WritesTheErrorOfEachPoint) {
   ASSERT_NE(vertices->Find("red"), nullptr);
   EXPECT_EQ(vertices->Find("red")->values[0], 255.0);
   EXPECT_EQ(vertices->Find("blue")->values[0], 0.0);
+}
+
+TEST(EdEval, MakesTheFoldersOfItsOutputs) {
+  const std::string folder = TempPath("new_folder");
+  std::filesystem::remove_all(folder);
+  const ProgramResult result = Eval({WriteSquare("result4.ply", 0.5),
+                                     WriteSquare("target4.ply", 0.0),
+                                     "--report=" + folder + "/report.json",
+                                     "--error_ply=" + folder + "/error/error.ply"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(folder + "/report.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder + "/error/error.ply"));
 }
 
 TEST(EdEval, NamesTheInputThatIsBad) {

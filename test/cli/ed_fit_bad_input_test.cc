@@ -77,11 +77,11 @@ TEST_F(EdFitBadInputTest, TwoOutputsNeedTwoNames) {
 }
 
 TEST_F(EdFitBadInputTest, OutputsAreCheckedBeforeTheWork) {
-  for (const char* flag : {"warp", "graph", "report"}) {
-    const std::string path = dir_ / "nowhere/file";
-    ExpectRefusal(FitPair({std::string("--") + flag + "=" + path}), 2, {path, "cannot write"});
+  // A file is where a folder is needed.
+  const std::string path = dir_ / "source.ply/file";
+  for (const char* flag : {"warp", "graph", "report", "output"}) {
+    ExpectRefusal(FitPair({std::string("--") + flag + "=" + path}), 2, {path, "cannot be made"});
   }
-  ExpectRefusal(FitPair({"--output=" + (dir_ / "nowhere/out.ply")}), 2, {"nowhere/out.ply"});
   ExpectRefusal(FitPair({"--output=" + dir_.path()}), 2, {dir_.path()});
   EXPECT_EQ(dir_.NumFiles(), 2u);
 }

@@ -4,6 +4,7 @@
 #include <ceres_ed/io/warp_io.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 
 #include <gmock/gmock.h>
@@ -24,6 +25,17 @@ TEST_F(EdFitTest, PutsTheSourceOnTheTarget) {
   const double after = Summarize(SurfaceDistances(Load("out.ply").cloud.points, target)).max;
   EXPECT_GT(before, 0.1);
   EXPECT_LT(after, kRingFacets);
+}
+
+TEST_F(EdFitTest, MakesTheFoldersOfItsOutputs) {
+  const ProgramResult result = RunProgramFile(AppPath("ed_fit"),
+                                              {dir_ / "source.ply",
+                                               dir_ / "target.ply",
+                                               "--output=" + (dir_ / "new/fitted/out.ply"),
+                                               "--report=" + (dir_ / "new/report.json")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "new/fitted/out.ply"));
+  EXPECT_TRUE(std::filesystem::exists(dir_ / "new/report.json"));
 }
 
 TEST_F(EdFitTest, KeepsQuadsOrderAndOtherProperties) {

@@ -63,7 +63,7 @@ TEST_F(EdSlamOutputTest, ClearsAwayWhatAnEarlierRunHasLeft) {
   WriteBytes(dir_ / "out/tracks.csv", "old");
   WriteBytes(dir_ / "out/notes.txt", "mine");
   WriteBytes(dir_ / "out/live/other.ply", "mine");
-  ASSERT_EQ(Run("out", {"--last=2", "--live_every=2"}).exit_code, 0);
+  ASSERT_EQ(Run("out", {"--last=2", "--live_every=2", "--overwrite"}).exit_code, 0);
   EXPECT_FALSE(Exists("out/live/000004.ply.tmp.123.0"));
   EXPECT_FALSE(Exists("out/live/000005.ply"));
   EXPECT_FALSE(Exists("out/live/000001.ply"));
@@ -72,6 +72,51 @@ TEST_F(EdSlamOutputTest, ClearsAwayWhatAnEarlierRunHasLeft) {
   EXPECT_TRUE(Exists("out/notes.txt"));
   EXPECT_TRUE(Exists("out/live/other.ply"));
   EXPECT_EQ(Statuses().size(), 3u);
+}
+
+TEST_F(EdSlamOutputTest, KeepsAFinishedResultUnlessToldToReplaceIt) {
+  ASSERT_EQ(Run("out", {"--last=1"}).exit_code, 0);
+  const std::string frames = ReadBytes(dir_ / "out/frames.csv");
+  const ProgramResult refused = Run("out");
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_EQ(SplitLines(refused.err).size(), 1u) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("--output=" + (dir_ / "out") + " holds a result already"));
+  EXPECT_THAT(refused.err, HasSubstr("--resume"));
+  EXPECT_THAT(refused.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(ReadBytes(dir_ / "out/frames.csv"), frames);
+  EXPECT_EQ(Run("out", {"--resume", "--last=2"}).exit_code, 0);
+  EXPECT_EQ(Frames().size(), 3u);
+  EXPECT_EQ(Run("out", {"--overwrite", "--last=0"}).exit_code, 0);
+  EXPECT_EQ(Frames().size(), 1u);
+}
+
+TEST_F(EdSlamOutputTest, ReplacesWhatAFailedRunHasLeft) {
+  std::filesystem::create_directories(dir_ / "out");
+  WriteBytes(dir_ / "out/report.json", R"({"program": "ed_slam", "status": "failed"})");
+  EXPECT_EQ(Run("out", {"--last=0"}).exit_code, 0);
+  EXPECT_EQ(Report()["status"], "done");
+}
+
+TEST_F(EdSlamOutputTest, RefusesToWriteIntoItsInput) {
+  for (const std::string& output : {std::string("seq"), std::string("seq/../seq/")}) {
+    const ProgramResult refused = Run(output, {"--overwrite"});
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, HasSubstr("is the folder of the sequence, expected another one"));
+  }
+  EXPECT_FALSE(Exists("seq/frames.csv"));
+}
+
+TEST_F(EdSlamOutputTest, PrintsItsSummaryBelowTheProgressBar) {
+  const ProgramResult result =
+      RunOnTerminal(AppPath("ed_slam"), {Sequence(), "--output=" + (dir_ / "out"), "--last=1"});
+  ASSERT_EQ(result.exit_code, 0) << result.out;
+  EXPECT_THAT(result.out, HasSubstr("ed_slam [########################] 2/2"));
+  const std::size_t summary = result.out.find("status     done");
+  ASSERT_NE(summary, std::string::npos) << result.out;
+  const std::size_t line = result.out.rfind('\r', summary);
+  // The bar is wiped, and nothing is drawn after that.
+  EXPECT_EQ(result.out.substr(line, summary - line), "\r\x1b[K");
+  EXPECT_EQ(result.out.find("ed_slam [", summary), std::string::npos);
 }
 
 TEST_F(EdSlamOutputTest, LiveCloudsKeepIdsAndBirthPlaces) {

@@ -9,6 +9,7 @@
 
 #include <fcntl.h>
 #include <glog/logging.h>
+#include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -74,6 +75,14 @@ int Wait(pid_t child, const RunOptions& options, bool* timed_out) {
   return status;
 }
 
+// The words as execv() takes them.
+std::vector<char*> PointersTo(std::vector<std::string>* words) {
+  std::vector<char*> pointers;
+  for (std::string& word : *words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
 }  // namespace
 
 ProgramResult RunProgramFile(const std::string& program,
@@ -81,9 +90,7 @@ ProgramResult RunProgramFile(const std::string& program,
                              const RunOptions& options) {
   std::vector<std::string> words = {program};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  const std::vector<char*> argv = PointersTo(&words);
   const char* directory =
       options.working_directory.empty() ? nullptr : options.working_directory.c_str();
 
@@ -101,6 +108,31 @@ ProgramResult RunProgramFile(const std::string& program,
   if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   result.out = out.Contents();
   result.err = err.Contents();
+  return result;
+}
+
+ProgramResult RunOnTerminal(const std::string& program, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {program};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  const std::vector<char*> argv = PointersTo(&words);
+  int terminal = -1;
+  const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+  PCHECK(child >= 0);
+  if (child == 0) {
+    execv(program.c_str(), argv.data());
+    _exit(127);
+  }
+  ProgramResult result;
+  char buffer[4096];
+  // Reading fails when the program has closed its end.
+  for (ssize_t size = 0; (size = read(terminal, buffer, sizeof(buffer))) > 0;) {
+    result.out.append(buffer, static_cast<std::size_t>(size));
+  }
+  int status = 0;
+  PCHECK(waitpid(child, &status, 0) == child);
+  close(terminal);
+  if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
+  if (WIFSIGNALED(status)) result.signal = WTERMSIG(status);
   return result;
 }
 

@@ -37,6 +37,9 @@ ProgramResult RunProgramFile(const std::string& program,
                              const std::vector<std::string>& arguments,
                              const RunOptions& options = {});
 
+// Returns the outcome of `program` on a terminal of its own; `out` is all that the terminal got.
+ProgramResult RunOnTerminal(const std::string& program, const std::vector<std::string>& arguments);
+
 // Path of a program of this build: AppPath("ed_fit").
 std::string AppPath(const std::string& name);
 

@@ -35,6 +35,41 @@ TEST(LiveCloud, ReadsBackAsWritten) {
   EXPECT_THAT(vertices.Find("bz")->values, ElementsAre(-4.0, 11.0));
 }
 
+TEST(LiveCloud, IsASnapshotForWhoReadsIt) {
+  const TemporaryDirectory dir;
+  std::vector<LivePoint> points(2);
+  points[0] = {{1.5f, -2.25f, 0.5f}, 3, 0, {1.0f, 3.0f, -4.0f}};
+  points[1] = {{0.0f, 7.0f, 8.0f}, 256, 65535, {9.0f, 10.0f, 11.0f}};
+  ASSERT_TRUE(WriteLiveCloud(dir / "000012.ply", points).ok());
+  std::vector<std::string> warnings;
+  const StatusOr<LiveSnapshot> snapshot = ReadLiveCloud(dir / "000012.ply", 12, &warnings);
+  ASSERT_TRUE(snapshot.ok()) << snapshot.status().message();
+  EXPECT_EQ(snapshot->frame, 12);
+  ASSERT_EQ(snapshot->size(), 2u);
+  EXPECT_EQ(snapshot->points[0], Eigen::Vector3d(1.5, -2.25, 0.5));
+  EXPECT_THAT(snapshot->ids, ElementsAre(3, 256));
+  EXPECT_THAT(snapshot->birth_frames, ElementsAre(0, 65535));
+  EXPECT_EQ(snapshot->birth_points[1], Eigen::Vector3d(9.0, 10.0, 11.0));
+  EXPECT_TRUE(warnings.empty());
+}
+
+TEST(LiveCloud, IsNamedByItsFrame) {
+  const TemporaryDirectory dir;
+  EXPECT_EQ(LiveCloudName(12), "000012.ply");
+  EXPECT_EQ(LiveCloudName(1234567), "1234567.ply");
+  EXPECT_TRUE(IsLiveCloudName(LiveCloudName(1234567)));
+  EXPECT_FALSE(IsLiveCloudName("12.ply"));
+  for (const char* name : {"000012.ply", "000003.ply", "other.ply", "000004.txt"}) {
+    WriteBytes(dir / name, "");
+  }
+  const auto clouds = ListLiveClouds(dir.path());
+  ASSERT_TRUE(clouds.ok());
+  EXPECT_THAT(
+      *clouds,
+      ElementsAre(::testing::Pair(3, dir / "000003.ply"), ::testing::Pair(12, dir / "000012.ply")));
+  EXPECT_TRUE(ListLiveClouds(dir / "missing")->empty());
+}
+
 TEST(LiveCloud, OfNoPointsIsWholeToo) {
   const TemporaryDirectory dir;
   ASSERT_TRUE(WriteLiveCloud(dir / "live.ply", {}).ok());

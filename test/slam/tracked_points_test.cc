@@ -2,6 +2,7 @@
 
 #include <ceres_ed/slam/map/deformable_map.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -85,6 +86,31 @@ TEST(TrackedPoints, AreNotVisibleBehindTheMap) {
   const std::vector<TrackedPlace> places = tracked->Locate(*slam, BumpyCamera());
   EXPECT_FALSE(places[0].visible);
   EXPECT_TRUE(places[1].visible);
+}
+
+// A sheet that is turned by 70 degrees: it is deeper across a cell of the z-buffer than what counts
+// as hidden. Its points are visible all the same, as the map's own points are.
+TEST(TrackedPoints, AreVisibleOnASteepSurface) {
+  const PinholeCamera camera = BumpyCamera();
+  const double slope = std::tan(70.0 * M_PI / 180.0);
+  const auto depth_at = [&](int u) {
+    // z = 0.1 + slope * x, with x in the camera frame.
+    return 0.1 / (1.0 - slope * camera.BackProject(u, 0.0, 1.0).x());
+  };
+  DepthImage depth(camera.width, camera.height);
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = 0; u < 60; ++u) depth(u, v) = static_cast<float>(depth_at(u));
+  }
+  const std::unique_ptr<DeformableSlam> slam = MakeBumpySlam();
+  ASSERT_EQ(Process(depth, 0, slam.get()), FrameStatus::kInitialized);
+  std::vector<NamedPoint> named;
+  for (int u = 10; u <= 50; ++u) named.push_back({u, camera.BackProject(u, 36, depth_at(u))});
+  TrackedPointsOptions options;
+  options.visibility.cell_size = 2.0;
+  const auto tracked = TrackedPoints::Bind(named, *slam, camera, options);
+  ASSERT_TRUE(tracked.ok()) << tracked.status().message();
+  const std::vector<TrackedPlace> places = tracked->Locate(*slam, camera);
+  for (std::size_t i = 0; i < places.size(); ++i) EXPECT_TRUE(places[i].visible) << named[i].id;
 }
 
 TEST(TrackedPoints, RefuseAPointFarFromTheMapByName) {
