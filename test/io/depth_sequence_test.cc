@@ -100,6 +100,20 @@ TEST_F(LoadedFrames, ColorIsLeftAsideOnRequest) {
   EXPECT_TRUE(frame->color.empty());
 }
 
+TEST_F(LoadedFrames, MasksAreLeftAsideOnRequest) {
+  Make({"0"});
+  folder_.Color("mask/0.png");
+  ASSERT_TRUE(WriteColorImage(folder_ / "mask/0.png", ColorImage(4, 3)).ok());
+  SequenceOptions options;
+  options.masks = false;
+  const auto sequence = Open(options);
+  ASSERT_NE(sequence, nullptr);
+  EXPECT_THAT(sequence->description(), HasSubstr("no masks"));
+  const StatusOr<DepthFrame> frame = sequence->Load(0);
+  ASSERT_TRUE(frame.ok()) << frame.status().message();
+  EXPECT_THAT(frame->depth.pixels(), Each(::testing::Gt(0.0F)));
+}
+
 TEST_F(LoadedFrames, MaskTakesDepthAway) {
   Make({"0"});
   ColorImage mask(4, 3);
