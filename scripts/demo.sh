@@ -78,7 +78,7 @@ done
 if [[ -n $fits_only ]]; then exit 0; fi
 
 # The packages that read pictures are as large as all others together, so a fit does not wait for them.
-build_programs tracking ed_slam ed_simulate
+build_programs tracking ed_slam ed_simulate ed_eval
 sequence=$results/heart
 say "a camera circles a beating heart: simulate, track, measure"
 "$programs/ed_simulate" heart --output="$sequence" --frames=20 --width=320 --height=240 --overwrite
