@@ -5,10 +5,9 @@
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/problem/term_set.h>
 #include <ceres_ed/registration/fit_types.h>
 
-#include <memory>
-#include <string>
 #include <vector>
 
 namespace ceres_ed {
@@ -36,50 +35,22 @@ class FitProblem {
 
   // The terms of what was measured, each measurement once: observations, but for the few pairs that
   // point-to-point sees a second time.
-  std::vector<int> MeasuredTerms() const;
+  std::vector<int> MeasuredTerms() const { return terms_.MeasuredTerms(builder_); }
 
  private:
-  // How a term of the fit is weighed.
-  struct TermRule {
-    // Multiplies the user's weight.
-    double unit = 1.0;
-    // Divide by the number of residual blocks.
-    bool per_residual = false;
-    // Multiply by the stiffness.
-    bool stiff = false;
-    // Collect anew when the correspondences change.
-    bool matched = false;
-    // Collect a part of the correspondences alone, with their weights raised.
-    bool thinned = false;
-    // Give the data loss, with the width that SetMatches asks for.
-    bool adaptive_loss = false;
-  };
-  struct Term {
-    std::unique_ptr<EnergyTerm> energy;
-    TermRule rule;
-    int index = -1;
-    double weight = 0.0;
-  };
-
-  Status AddTerm(const EnergyRegistry& registry,
-                 const std::string& label,
-                 const EnergySpec& spec,
-                 const std::vector<Correspondence>& landmarks,
-                 const TermRule& rule);
-  EnergyContext Context(const Term& term, const std::vector<Correspondence>& landmarks) const;
-  void Collect(const Term& term, const std::vector<Correspondence>& landmarks);
-  void ApplyWeight(const Term& term);
+  TermInputs Inputs() const;
 
   const BuiltGraph& graph_;
   const PointCloud& source_;
   ProblemBuilder builder_;
-  std::vector<Term> terms_;
+  TermSet terms_;
   std::vector<Correspondence> correspondences_;
   std::vector<Correspondence> thinned_;
   std::vector<MatchDetail> details_;
   std::vector<Correspondence> landmarks_;
-  LossType loss_ = LossType::kSquared;
+  std::vector<Correspondence> fixed_;
   double stiffness_ = 1.0;
+  double loss_width_ = 1.0;
 };
 
 }  // namespace ceres_ed
