@@ -123,11 +123,7 @@ void FeaturePoints::Exchange(CheckpointArchive* archive) {
   archive->Leave();
 }
 
-void Levels::ForgetSolvers() {
-  level_one_ = MakeLevelSolver(options_.strategy.linear_solver);
-  level_two_ = MakeLevelSolver(options_.strategy.linear_solver);
-  MakeMarginal();
-}
+void Levels::ForgetSolvers() { solver_ = MakeSolver(); }
 
 void Levels::Exchange(CheckpointArchive* archive) {
   archive->Enter("levels");

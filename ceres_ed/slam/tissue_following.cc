@@ -121,7 +121,7 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
     const double gain = level.initial_energy - level.energy;
     if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
-  if (options_.levels.strategy.mode == SolveMode::kMarginal) {
+  if (levels_->Eliminates()) {
     take(levels_->FinishLevelOne(observations, &memory_, &map_));
   }
   return observations;
@@ -129,7 +129,7 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
 
 // Level II.
 void Tracker::FollowHidden(bool catch_up, FrameReport* report) {
-  if (options_.levels.strategy.mode == SolveMode::kBatch) return;
+  if (!levels_->HasLevelTwo()) return;
   Timer timer;
   NoteRecalled();
   NoteNewNodes();

@@ -3,7 +3,7 @@
 #define CERES_ED_SOLVER_LEVEL_SOLVER_H_
 
 #include <ceres_ed/problem/problem_builder.h>
-#include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/solver/solver_types.h>
 
 #include <memory>
 #include <string>

@@ -1,4 +1,4 @@
-// How a problem is solved: batch, two-level, and what else shares their interface.
+// How a problem is solved: batch, two-level and marginal share one interface.
 #ifndef CERES_ED_SOLVER_STRATEGY_H_
 #define CERES_ED_SOLVER_STRATEGY_H_
 #include <ceres_ed/graph/deformation_state.h>

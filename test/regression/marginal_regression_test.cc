@@ -1,5 +1,5 @@
 // The solve with PI nodes marginalised against the batch solve, on half-seen surfaces.
-#include <ceres_ed/solver/strategies/marginal_strategy.h>
+#include <ceres_ed/solver/decoupling/decoupled_solver.h>
 
 #include <algorithm>
 #include <cmath>

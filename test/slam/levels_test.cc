@@ -118,6 +118,33 @@ TEST(Levels, OfBatchEqualTheBatchStrategy) {
   EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-9);
 }
 
+// The levels' own planes have a loss as wide as these spread, whereas the same energy of a user's
+// has the width that the user gave it.
+TEST(Levels, KeepTheWidthOfAUsersLoss) {
+  LevelScene scene;
+  LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
+  const LossSpec loss = {LossType::kTukey, 0.05};
+  const auto builder = scene.WholeProblem(options);
+  EnergyRegistry registry;
+  RegisterBuiltinEnergies(&registry);
+  const auto energy = registry.Create("point_to_plane", {});
+  ASSERT_TRUE(energy.ok());
+  const int term = builder->AddTerm(
+      "users", EnergyKind::kObservation, 0.7 * 16.0 / scene.problem.correspondences.size(), loss);
+  EnergyContext context = scene.problem.Context();
+  context.graph = &scene.map.graph();
+  builder->CollectResiduals(term, **energy, context);
+  const double expected = builder->Evaluate(scene.map.state()).terms[term].weighted;
+  DeformableMap copy = scene.map;
+  const double without =
+      MakeLevels(options)->SolveLevelOne(scene.observations, nullptr, &copy).initial_energy;
+  options.energies = {{"point_to_plane", 0.7, loss, {}}};
+  const double with =
+      MakeLevels(options)->SolveLevelOne(scene.observations, nullptr, &scene.map).initial_energy;
+  EXPECT_GT(expected, 0.0);
+  EXPECT_NEAR(with - without, expected, 1e-9 * with);
+}
+
 TEST(Levels, LeaveHeldNodesAsTheyAreToTheBit) {
   for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
     LevelScene scene;

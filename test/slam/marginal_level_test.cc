@@ -1,4 +1,4 @@
-#include "ceres_ed/slam/levels/marginal_level.h"
+#include "ceres_ed/slam/levels/levels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,46 +80,16 @@ TEST(MarginalLevels, EliminateWithinTheirReach) {
   EXPECT_GT(levels->SolveLevelTwo(nullptr, &scene.map).variable_nodes, 0);
 }
 
-NodeSet Range(int first, int last) {
-  NodeSet nodes;
-  for (int j = first; j < last; ++j) nodes.Add(j);
-  return nodes;
-}
-
-TEST(MarginalLevel, KeepsItsNodesWhileTheyServe) {
-  const LevelScene scene(30);
-  StrategyOptions options;
-  options.rings = 1;
-  options.marginal_reach = 4;
-  MarginalLevel level(options);
-  level.Choose(scene.map.graph(), Range(40, 60));
-  EXPECT_EQ(level.kept().size(), 28u);
-  EXPECT_EQ(level.eliminated().size(), 32u);
-  const std::vector<int> eliminated = level.eliminated();
-  // A column on: all of it had stayed.
-  level.Choose(scene.map.graph(), Range(44, 64));
-  EXPECT_EQ(level.num_choices(), 1);
-  EXPECT_EQ(level.eliminated(), eliminated);
-  // Another one had been eliminated.
-  level.Choose(scene.map.graph(), Range(48, 68));
-  EXPECT_EQ(level.num_choices(), 2);
-  EXPECT_EQ(level.kept().size(), 28u);
-  EXPECT_EQ(level.kept().front(), 44);
-  // Many that stayed in vain.
-  level.Choose(scene.map.graph(), Range(52, 60));
-  EXPECT_EQ(level.num_choices(), 3);
-}
-
-TEST(MarginalLevel, UsesAnEliminationAgain) {
+TEST(MarginalLevels, UseAnEliminationAgain) {
   LevelScene scene;
   const auto levels = MakeLevels(Marginal(LevelTwoMode::kFull));
   levels->FinishLevelOne(scene.observations, nullptr, &scene.map);
-  const int before = levels->marginal()->num_eliminations();
+  const int before = levels->solver().marginalization().num_eliminations();
   EXPECT_GT(before, 0);
   // At the minimum nothing moves any more: the next frame has no need of another one.
   levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
-  EXPECT_EQ(levels->marginal()->num_eliminations(), before);
-  EXPECT_EQ(levels->marginal()->num_choices(), 1);
+  EXPECT_EQ(levels->solver().marginalization().num_eliminations(), before);
+  EXPECT_EQ(levels->solver().num_choices(), 1);
 }
 
 }  // namespace

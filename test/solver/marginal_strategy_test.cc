@@ -1,4 +1,4 @@
-#include "ceres_ed/solver/strategies/marginal_strategy.h"
+#include "ceres_ed/solver/decoupling/decoupled_solver.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ TEST(MarginalStrategy, OneUndampedStepIsTheGaussNewtonStepOfBatch) {
       for (const int rings : {0, 1, 2}) {
         DeformationState found = start;
         const SolveSummary summary =
-            MarginalStrategy(Marginal(rings, linear_solver)).Solve(strip.builder, one_step, &found);
+            DecoupledSolver(Marginal(rings, linear_solver)).Solve(strip.builder, one_step, &found);
         EXPECT_EQ(summary.TotalIterations(), 2);
         EXPECT_NEAR(summary.final_energy, energy, 1e-9 * energy);
         EXPECT_LT(Difference(found, expected), 1e-9 * Difference(expected, start))
@@ -94,7 +94,7 @@ TEST(MarginalStrategy, ReachesTheMinimumOfBatch) {
       for (const LinearSolver linear_solver : kLinearSolvers) {
         DeformationState found(24);
         const SolveSummary summary =
-            MarginalStrategy(Marginal(1, linear_solver)).Solve(strip.builder, Converging(), &found);
+            DecoupledSolver(Marginal(1, linear_solver)).Solve(strip.builder, Converging(), &found);
         EXPECT_EQ(summary.status, SolveStatus::kConverged);
         EXPECT_NEAR(summary.final_energy, energy, 1e-9 * energy);
         EXPECT_LT(Difference(found, batch), 1e-5);
@@ -107,7 +107,7 @@ TEST(MarginalStrategy, ReachesTheMinimumOfBatch) {
 TEST(MarginalStrategy, KeepsTheEliminationWhileHiddenNodesStayNearIt) {
   StripBuilder strip(Seen(3));
   DeformationState state(24);
-  MarginalStrategy strategy(Marginal(0));
+  DecoupledSolver strategy(Marginal(0));
   strategy.Solve(strip.builder, Converging(), &state);
   const int eliminations = strategy.marginalization().num_eliminations();
   EXPECT_GE(eliminations, 1);
@@ -131,7 +131,7 @@ TEST(MarginalStrategy, KeepsTheEliminationWhileHiddenNodesStayNearIt) {
 
 // One object while nodes come into view and go, weights change and the graph grows.
 TEST(MarginalStrategy, ForgetsNothingAndKeepsNothingStale) {
-  MarginalStrategy reused(Marginal(0));
+  DecoupledSolver reused(Marginal(0));
   for (const int observed : {2, 4, 3, 7, 2}) {
     TestProblemOptions options = Seen(observed);
     if (observed == 4) options.columns = 9;
@@ -156,7 +156,7 @@ TEST(MarginalStrategy, HoldsByDampingWhatNothingElseHolds) {
   DeformationState found = batch;
   const double energy = MakeStrategy({})->Solve(strip.builder, Converging(), &batch).final_energy;
   const SolveSummary summary =
-      MarginalStrategy(Marginal(0)).Solve(strip.builder, Converging(), &found);
+      DecoupledSolver(Marginal(0)).Solve(strip.builder, Converging(), &found);
   EXPECT_EQ(summary.status, SolveStatus::kConverged) << summary.message;
   EXPECT_NEAR(summary.final_energy, energy, 1e-9 * summary.initial_energy);
 }
@@ -166,7 +166,7 @@ TEST(MarginalStrategy, MovesHiddenNodesToTheirBestWhereNothingIsSeen) {
     StripBuilder strip(Seen(0));
     DeformationState state = RandomState(strip.problem, 0.1, 5);
     const SolveSummary summary =
-        MarginalStrategy(Marginal(2, linear_solver)).Solve(strip.builder, Converging(), &state);
+        DecoupledSolver(Marginal(2, linear_solver)).Solve(strip.builder, Converging(), &state);
     EXPECT_EQ(summary.status, SolveStatus::kConverged) << summary.message;
     EXPECT_EQ(summary.levels[0].num_variable_nodes, 0);
     EXPECT_EQ(summary.levels[1].num_variable_nodes, 24);
@@ -186,7 +186,7 @@ TEST(MarginalStrategy, NeverRaisesTheEnergyFromFarAway) {
       options.max_iterations = iterations;
       DeformationState state = start;
       const SolveSummary summary =
-          MarginalStrategy(Marginal(0)).Solve(strip.builder, options, &state);
+          DecoupledSolver(Marginal(0)).Solve(strip.builder, options, &state);
       ASSERT_TRUE(summary.IsUsable()) << summary.message;
       const double energy = strip.builder.Evaluate(state).Total();
       EXPECT_NEAR(summary.final_energy, energy, 1e-11 * summary.initial_energy);
@@ -229,7 +229,7 @@ TEST(MarginalStrategy, ReachesTheMinimumOfBatchWhereAPriorJoinsAHiddenNodeToTheC
   const double energy = MakeStrategy({})->Solve(strip.builder, Converging(), &batch).final_energy;
   DeformationState found(24);
   const SolveSummary summary =
-      MarginalStrategy(Marginal(0)).Solve(strip.builder, Converging(), &found);
+      DecoupledSolver(Marginal(0)).Solve(strip.builder, Converging(), &found);
   EXPECT_EQ(summary.status, SolveStatus::kConverged);
   EXPECT_NEAR(summary.final_energy, energy, 1e-9 * energy);
   EXPECT_LT(Difference(found, batch), 1e-5);

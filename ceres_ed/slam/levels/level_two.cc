@@ -39,17 +39,15 @@ LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
   LevelWindow window = windows_.Build(map->graph(), map->state(), nodes, /*held=*/{});
   if (priors != nullptr) priors->UpdatePriors(window.nodes, map);
   const WindowObservations nothing({}, windows_, *map, window);
-  EnergyContext context = nothing.Context(window);
+  TermInputs inputs;
+  inputs.context = nothing.Context(window);
   const std::vector<Eigen::Vector3d> previous = PreviousOf(window, *map);
-  if (!previous.empty()) context.node_previous = &previous;
+  if (!previous.empty()) inputs.context.node_previous = &previous;
   ProblemBuilder builder(window.graph, /*has_camera=*/false);
-  for (Term& term : terms_) {
-    if (term.observation || term.name == "pose_prior") continue;
-    Collect(term.weight, term.loss, context, &term, &builder);
-  }
+  terms_.AddTo(inputs, TermLevels::kAll, &builder);
   const ProblemConfig config = window.Config(/*camera_variable=*/false, SeamEdges::kKeep);
   const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
-    return level_two_->Solve(builder, config, steps, &window.state, summary);
+    return solver_->SolveLevelTwo(builder, config, steps, &window.state, summary);
   };
   std::vector<double> motion;
   const LevelReport report = Solve(options_.solver, solve, window, map, &motion);
@@ -127,11 +125,10 @@ LevelReport Levels::CatchUp(const std::vector<int>& nodes,
 
 void Levels::CatchUpCopy(NodePriorSource* priors, DeformableMap* copy) {
   const PendingNodes pending = pending_;
-  std::unique_ptr<LevelSolver> kept =
-      std::exchange(level_two_, MakeLevelSolver(options_.strategy.linear_solver));
+  std::unique_ptr<DecoupledSolver> kept = std::exchange(solver_, MakeSolver());
   CatchUp(priors, copy);
   pending_ = pending;
-  level_two_ = std::move(kept);
+  solver_ = std::move(kept);
 }
 
 }  // namespace ceres_ed

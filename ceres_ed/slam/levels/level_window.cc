@@ -9,7 +9,11 @@ namespace ceres_ed {
 ProblemConfig LevelWindow::Config(bool camera_variable, SeamEdges seam_edges) const {
   ProblemConfig config;
   config.variable_nodes.assign(nodes.size(), 0);
-  std::fill_n(config.variable_nodes.begin(), num_variable, 1);
+  std::fill_n(config.variable_nodes.begin() + num_eliminated, num_variable - num_eliminated, 1);
+  if (num_eliminated > 0) {
+    config.eliminated_nodes.assign(nodes.size(), 0);
+    std::fill_n(config.eliminated_nodes.begin(), num_eliminated, 1);
+  }
   config.camera_variable = camera_variable;
   config.seam_edges = seam_edges;
   return config;
@@ -50,6 +54,16 @@ LevelWindow LevelWindowBuilder::Build(const DeformationGraph& graph,
       window.graph.AddEdge({local_[edge.from], local_[edge.to], edge.weight});
     }
   }
+  return window;
+}
+
+LevelWindow LevelWindowBuilder::Build(const DeformationGraph& graph,
+                                      const DeformationState& state,
+                                      const Decoupling& nodes) {
+  std::vector<int> variable = nodes.eliminated.nodes();
+  variable.insert(variable.end(), nodes.moved.nodes().begin(), nodes.moved.nodes().end());
+  LevelWindow window = Build(graph, state, variable, /*held=*/{});
+  window.num_eliminated = nodes.eliminated.size();
   return window;
 }
 

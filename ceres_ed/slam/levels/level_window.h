@@ -5,6 +5,7 @@
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/problem/problem_config.h>
+#include <ceres_ed/solver/decoupling/decoupling.h>
 #include <ceres_ed/util/memory_use.h>
 
 #include <cstddef>
@@ -13,17 +14,20 @@
 
 namespace ceres_ed {
 
-// The variable nodes of a level, the held ones that share an edge or a point with them, and every
-// edge that touches a variable one. A problem over the window has the residuals, and so the
-// minimum, of the same level over the whole graph.
+// The nodes that a level solves for, the held ones that share an edge or a point with them, and
+// every edge that touches one that it solves for. A problem over the window has the residuals, and
+// so the minimum, of the same level over the whole graph.
 struct LevelWindow {
-  // Node of the map for each node of the window, variable ones first.
+  // Node of the map for each node of the window: the eliminated ones first, then those that are
+  // moved, then those that are held.
   std::vector<int> nodes;
+  int num_eliminated = 0;
+  // The eliminated and the moved ones: those that the level solves for.
   int num_variable = 0;
   DeformationGraph graph;
   DeformationState state;
 
-  // Which of the window's nodes may move.
+  // The level as a problem over the window.
   ProblemConfig Config(bool camera_variable, SeamEdges seam_edges) const;
 };
 
@@ -36,6 +40,11 @@ class LevelWindowBuilder {
                     const DeformationState& state,
                     const std::vector<int>& variable,
                     const std::vector<int>& held);
+
+  // The window of a Level I.
+  LevelWindow Build(const DeformationGraph& graph,
+                    const DeformationState& state,
+                    const Decoupling& nodes);
 
   // The window's index of a map node; -1 for one outside. Of the last window built.
   int Local(int node) const { return local_[node]; }

@@ -1,12 +1,11 @@
 #include "ceres_ed/slam/levels/levels.h"
 
-#include <ceres_ed/graph/node_neighborhood.h>
 #include <ceres_ed/slam/levels/window_observations.h>
 #include <ceres_ed/util/option_check.h>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <map>
 
 #include <cost_functions/node_parameters.h>
 
@@ -30,6 +29,41 @@ StrategyOptions TwoLevels() {
   options.mode = SolveMode::kTwoLevel;
   options.marginal_reach = 8;
   return options;
+}
+
+// The energies of the levels and how they take part.
+std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
+  // Hidden nodes see neither observations nor the camera.
+  TermRule planes;
+  planes.scale = WeightScale::kPerObservedNode;
+  planes.levels = TermLevels::kLevelOne;
+  planes.loss_width = LossWidth::kCorrespondences;
+  TermRule features = planes;
+  features.loss_width = LossWidth::kLandmarks;
+  TermRule camera;
+  camera.levels = TermLevels::kLevelOne;
+  const double feature_weight = options.plane_weight * options.feature_weight;
+  const std::map<std::string, double> spreads = {{"rotation_sigma", options.prior_rotation_deg},
+                                                 {"translation_sigma", options.prior_translation}};
+  const LossSpec tukey = {LossType::kTukey, 1.0};
+  return {{"rotation", {"rotation", options.rotation_weight, {}, {}}, {}},
+          {"regularization", {"regularization", options.regularization_weight, {}, {}}, {}},
+          {"node_prior", {"node_prior", options.node_prior_weight, {}, {}}, {}},
+          {"point_to_plane", {"point_to_plane", options.plane_weight, tukey, {}}, planes},
+          {"landmark", {"landmark", feature_weight, tukey, {}}, features},
+          {"pose_prior", {"pose_prior", 1.0, {}, spreads}, camera}};
+}
+
+// Those of the user: observations count as the levels' own do, and priors hold hidden nodes, too.
+TermSpec UsersTerm(const EnergySpec& energy, const EnergyRegistry& registry) {
+  TermSpec spec = {energy.name, energy, {}};
+  spec.rule.is_users = true;
+  const EnergyInfo* info = registry.Find(energy.name);
+  if (info != nullptr && info->kind == EnergyKind::kObservation) {
+    spec.rule.scale = WeightScale::kPerObservedNode;
+    spec.rule.levels = TermLevels::kLevelOne;
+  }
+  return spec;
 }
 
 // Where a frame's last problem is solved to its end.
@@ -68,41 +102,20 @@ bool LevelsOptions::IsValid(std::string* error) const {
 StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
                                                  const EnergyRegistry& registry) {
   std::unique_ptr<Levels> levels(new Levels(options));
-  std::vector<EnergySpec> specs = {
-      {"rotation", options.rotation_weight, {}, {}},
-      {"regularization", options.regularization_weight, {}, {}},
-      {"node_prior", options.node_prior_weight, {}, {}},
-      {"point_to_plane", options.plane_weight, {LossType::kTukey, 1.0}, {}},
-      {"landmark", options.plane_weight * options.feature_weight, {LossType::kTukey, 1.0}, {}},
-      {"pose_prior",
-       1.0,
-       {},
-       {{"rotation_sigma", options.prior_rotation_deg},
-        {"translation_sigma", options.prior_translation}}}};
-  const std::size_t num_own = specs.size();
-  specs.insert(specs.end(), options.energies.begin(), options.energies.end());
-  for (const EnergySpec& spec : specs) {
-    StatusOr<std::unique_ptr<EnergyTerm>> energy = registry.Create(spec.name, spec.parameters);
-    if (!energy.ok()) return energy.status();
-    Term term;
-    term.name = spec.name;
-    term.origin = registry.Find(spec.name)->origin;
-    term.energy = *std::move(energy);
-    term.weight = spec.weight;
-    term.loss = spec.loss;
-    term.observation = term.energy->kind() == EnergyKind::kObservation;
-    term.is_users = levels->terms_.size() >= num_own;
-    levels->terms_.push_back(std::move(term));
+  std::vector<TermSpec> specs = OwnTerms(options);
+  for (const EnergySpec& energy : options.energies) specs.push_back(UsersTerm(energy, registry));
+  for (const TermSpec& spec : specs) {
+    if (Status status = levels->terms_.Add(registry, spec); !status.ok()) return status;
   }
   levels->ForgetSolvers();
   return levels;
 }
 
-void Levels::MakeMarginal() {
-  if (options_.strategy.mode != SolveMode::kMarginal) return;
+std::unique_ptr<DecoupledSolver> Levels::MakeSolver() const {
   StrategyOptions strategy = options_.strategy;
+  // What full Level II moves in every frame may as well be eliminated.
   if (options_.level_two == LevelTwoMode::kFull) strategy.marginal_reach = -1;
-  marginal_ = std::make_unique<MarginalLevel>(strategy);
+  return std::make_unique<DecoupledSolver>(strategy);
 }
 
 void Levels::MarkPointRelevant(const FrameObservations& observations) {
@@ -113,34 +126,6 @@ void Levels::MarkPointRelevant(const FrameObservations& observations) {
     }
   }
   point_relevant_.Sort();
-}
-
-void Levels::MarkMoved(const DeformableMap& map) {
-  moved_.Clear();
-  if (options_.strategy.mode == SolveMode::kBatch) {
-    for (int j = 0; j < map.graph().num_nodes(); ++j) moved_.Add(j);
-    return;
-  }
-  for (const int node : point_relevant_.nodes()) moved_.Add(node);
-  AddRings(
-      map.graph(), options_.strategy.rings, [](int) { return true; }, &moved_);
-  moved_.Sort();
-}
-
-std::vector<int> Levels::ChooseNodes(const FrameObservations& observations,
-                                     const DeformableMap& map) {
-  MarkPointRelevant(observations);
-  if (marginal_ == nullptr) {
-    MarkMoved(map);
-    return moved_.nodes();
-  }
-  marginal_->Choose(map.graph(), point_relevant_);
-  moved_.Clear();
-  for (const int node : marginal_->kept()) moved_.Add(node);
-  moved_.Sort();
-  std::vector<int> nodes = marginal_->eliminated();
-  nodes.insert(nodes.end(), marginal_->kept().begin(), marginal_->kept().end());
-  return nodes;
 }
 
 LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
@@ -162,41 +147,39 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
                                   const SolverOptions& options,
                                   NodePriorSource* priors,
                                   DeformableMap* map) {
-  LevelWindow window =
-      windows_.Build(map->graph(), map->state(), ChooseNodes(observations, *map), /*held=*/{});
+  MarkPointRelevant(observations);
+  const Decoupling& nodes = solver_->UpdateNodes(map->graph(), point_relevant_);
+  moved_.Clear();
+  for (const int node : nodes.moved.nodes()) moved_.Add(node);
+  moved_.Sort();
+  LevelWindow window = windows_.Build(map->graph(), map->state(), nodes);
   if (priors != nullptr) priors->UpdatePriors(window.nodes, map);
   const WindowObservations seen(observations, windows_, *map, window);
-  // Data count per PR node, whatever the density of points.
-  const double per_node =
-      point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
-  EnergyContext context = seen.Context(window);
+  TermInputs inputs;
+  inputs.context = seen.Context(window);
   const std::vector<Eigen::Vector3d> previous = PreviousOf(window, *map);
-  if (!previous.empty()) context.node_previous = &previous;
-  context.has_camera = true;
-  context.camera_prior = observations.camera_prior;
+  if (!previous.empty()) inputs.context.node_previous = &previous;
+  inputs.context.has_camera = true;
+  inputs.context.camera_prior = observations.camera_prior;
+  // Data count per PR node, whatever the density of points.
+  inputs.nodes_per_observation =
+      point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
+  inputs.correspondence_width = observations.plane_width;
+  inputs.landmark_width = observations.feature_width;
   ProblemBuilder builder(window.graph, /*has_camera=*/true);
-  for (Term& term : terms_) {
-    LossSpec loss = term.loss;
-    if (term.name == "point_to_plane") loss.width = observations.plane_width;
-    if (term.name == "landmark") loss.width = observations.feature_width;
-    const double weight = term.weight * (term.observation ? per_node : 1.0);
-    Collect(weight, loss, context, &term, &builder);
-  }
+  terms_.AddTo(inputs, TermLevels::kLevelOne, &builder);
   const bool camera = options_.camera_variable;
+  const ProblemConfig config = window.Config(camera, nodes.seam_edges);
   const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
-    if (marginal_ != nullptr) {
-      return marginal_->Solve(builder, camera, steps, &window, summary);
-    }
-    const ProblemConfig config = window.Config(camera, options_.strategy.seam_edges);
-    return level_one_->Solve(builder, config, steps, &window.state, summary);
+    return solver_->SolveLevelOne(builder, config, steps, &window.state, summary);
   };
   std::vector<double> motion;
   LevelReport report = Solve(options, solve, window, map, &motion);
   report.point_relevant = point_relevant_.size();
-  if (marginal_ != nullptr) report.marginalized = static_cast<int>(marginal_->eliminated().size());
+  report.marginalized = window.num_eliminated;
   if (report.status == SolveStatus::kFailed) return report;
   if (camera) map->SetCamera(window.state.camera_from_map);
-  pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/marginal_ != nullptr);
+  pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/Eliminates());
   return report;
 }
 
@@ -214,25 +197,6 @@ std::vector<Eigen::Vector3d> Levels::PreviousOf(const LevelWindow& window,
   return previous;
 }
 
-void Levels::Collect(double weight,
-                     const LossSpec& loss,
-                     const EnergyContext& context,
-                     Term* term,
-                     ProblemBuilder* builder) {
-  const int index = builder->AddTerm(term->name, term->energy->kind(), weight, loss);
-  builder->SetOrigin(index, term->origin);
-  builder->CollectResiduals(index, *term->energy, context);
-  term->has_added = term->has_added || builder->NumResidualBlocks(index) > 0;
-}
-
-std::vector<std::string> Levels::IdleEnergies() const {
-  std::vector<std::string> names;
-  for (const Term& term : terms_) {
-    if (term.is_users && !term.has_added) names.push_back(term.name);
-  }
-  return names;
-}
-
 LevelReport Levels::Solve(const SolverOptions& options,
                           const SolveWindow& solve,
                           const LevelWindow& window,
@@ -240,24 +204,29 @@ LevelReport Levels::Solve(const SolverOptions& options,
                           std::vector<double>* motion) {
   LevelReport report;
   SolveSummary summary;
-  bool solved = solve(options, &summary);
-  const auto moved = [&summary] {
-    return summary.levels.back().final_cost < summary.levels.back().initial_cost;
+  int iterations = 0;
+  const auto run = [&](const SolverOptions& steps) {
+    summary = SolveSummary();
+    const bool solved = solve(steps, &summary);
+    if (solved) iterations += summary.levels.front().iterations;
+    return solved;
   };
-  if (solved && summary.status == SolveStatus::kMaxIterations && !moved()) {
+  bool solved = run(options);
+  if (solved && summary.status == SolveStatus::kMaxIterations &&
+      !(summary.final_energy < summary.initial_energy)) {
     SolverOptions more = options;
     more.max_iterations += kMoreSteps;
-    solved = solve(more, &summary);
+    solved = run(more);
   }
   report.status = summary.status;
   if (!solved) {
     fault_ = summary.fault;
     return report;
   }
+  report.iterations = iterations;
   report.variable_nodes = window.num_variable;
-  report.iterations = summary.TotalIterations();
-  report.initial_energy = summary.levels.back().initial_cost;
-  report.energy = summary.levels.back().final_cost;
+  report.initial_energy = summary.initial_energy;
+  report.energy = summary.final_energy;
   motion->resize(window.num_variable);
   for (int i = 0; i < window.num_variable; ++i) {
     const int node = window.nodes[i];

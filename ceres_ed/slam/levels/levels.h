@@ -3,17 +3,16 @@
 #define CERES_ED_SLAM_LEVELS_LEVELS_H_
 
 #include <ceres_ed/energy/energy_registry.h>
-#include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/graph/node_set.h>
 #include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/problem/term_set.h>
 #include <ceres_ed/slam/frame/observations.h>
 #include <ceres_ed/slam/levels/level_window.h>
-#include <ceres_ed/slam/levels/marginal_level.h>
 #include <ceres_ed/slam/levels/pending_nodes.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/map/node_prior_source.h>
 #include <ceres_ed/slam/slam_options.h>
-#include <ceres_ed/solver/level_solver.h>
+#include <ceres_ed/solver/decoupling/decoupled_solver.h>
 #include <ceres_ed/util/status.h>
 
 #include <cstddef>
@@ -81,11 +80,15 @@ class Levels {
   // energy, plugin and residual. Empty where there was none.
   std::string TakeFault() { return std::exchange(fault_, {}); }
   // Energies of LevelsOptions::energies that have not added a residual yet.
-  std::vector<std::string> IdleEnergies() const;
+  std::vector<std::string> IdleEnergies() const { return terms_.IdleEnergies(); }
   // For what changes outside of the levels.
   PendingNodes& pending() { return pending_; }
-  // Null where nothing is marginalised.
-  const MarginalLevel* marginal() const { return marginal_.get(); }
+  // Whether there are nodes that Level I does not move.
+  bool HasLevelTwo() const { return solver_->HasLevelTwo(); }
+  // Whether Level I eliminates nodes, so that its minimum is that of the batch solve.
+  bool Eliminates() const { return solver_->Eliminates(); }
+  // What chooses and solves for nodes.
+  const DecoupledSolver& solver() const { return *solver_; }
 
   // Of what it keeps of every node; solvers hold what the last windows took.
   std::size_t HeapBytes() const {
@@ -101,30 +104,12 @@ class Levels {
   void Exchange(CheckpointArchive* archive);
 
  private:
-  // A term and how it is weighed.
-  struct Term {
-    std::string name;
-    std::string origin;
-    std::unique_ptr<EnergyTerm> energy;
-    double weight = 1.0;
-    LossSpec loss;
-    bool observation = false;
-    // One of LevelsOptions::energies.
-    bool is_users = false;
-    bool has_added = false;
-  };
-
   explicit Levels(const LevelsOptions& options)
       : options_(options), pending_(options.lazy.tolerance) {}
   // Whether nodes may be left behind.
-  bool IsLazy() const {
-    return options_.strategy.mode != SolveMode::kBatch && options_.level_two == LevelTwoMode::kLazy;
-  }
-  void MakeMarginal();
+  bool IsLazy() const { return HasLevelTwo() && options_.level_two == LevelTwoMode::kLazy; }
+  std::unique_ptr<DecoupledSolver> MakeSolver() const;
   void MarkPointRelevant(const FrameObservations& observations);
-  void MarkMoved(const DeformableMap& map);
-  // Marks the nodes of the frame, and returns those that a problem of Level I solves for.
-  std::vector<int> ChooseNodes(const FrameObservations& observations, const DeformableMap& map);
   LevelReport SolveLevelOne(const FrameObservations& observations,
                             const SolverOptions& options,
                             NodePriorSource* priors,
@@ -146,27 +131,17 @@ class Levels {
                     DeformableMap* map,
                     std::vector<double>* motion);
 
-  // Adds a term and its residuals to a problem of a level.
-  void Collect(double weight,
-               const LossSpec& loss,
-               const EnergyContext& context,
-               Term* term,
-               ProblemBuilder* builder);
-
   // Where the nodes of a window were one frame ago.
   std::vector<Eigen::Vector3d> PreviousOf(const LevelWindow& window, const DeformableMap& map);
 
   LevelsOptions options_;
-  std::vector<Term> terms_;
+  TermSet terms_;
   // t_j before the frame of the nodes that its windows have taken; kept where energies of the
   // user's may ask for it.
   std::unordered_map<int, Eigen::Vector3d> previous_;
   std::string fault_;
   LevelWindowBuilder windows_;
-  std::unique_ptr<LevelSolver> level_one_;
-  std::unique_ptr<LevelSolver> level_two_;
-  // Null where nothing is marginalised.
-  std::unique_ptr<MarginalLevel> marginal_;
+  std::unique_ptr<DecoupledSolver> solver_;
   NodeSet point_relevant_;
   NodeSet moved_;
   PendingNodes pending_;

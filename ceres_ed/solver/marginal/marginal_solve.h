@@ -5,7 +5,7 @@
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/solver/marginal/marginalization.h>
-#include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/solver/solver_types.h>
 #include <ceres_ed/solver/trust_region.h>
 #include <ceres_ed/util/timer.h>
 
@@ -25,7 +25,7 @@ struct MarginalProblem {
   const Timer* timer = nullptr;
 };
 
-// The iterations of MarginalStrategy: Levenberg-Marquardt on the full energy, whose step is one of
+// The iterations of a ConfigSolver: Levenberg-Marquardt on the full energy, whose step is one of
 // Level I with the eliminated nodes behind it.
 class MarginalSolve {
  public:

@@ -1,0 +1,101 @@
+#include "ceres_ed/solver/decoupling/decoupled_solver.h"
+
+#include <ceres_ed/solver/strategies/strategy_table.h>
+#include <ceres_ed/util/timer.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+
+namespace ceres_ed {
+namespace {
+
+NodeSet NodesOf(const std::vector<char>& mask) {
+  NodeSet nodes;
+  for (std::size_t j = 0; j < mask.size(); ++j) {
+    if (mask[j] != 0) nodes.Add(static_cast<int>(j));
+  }
+  return nodes;
+}
+
+// Where Level I was stopped early, PI nodes still follow by a few steps, whatever the time limit or
+// the caller say: a torn seam would be no usable state.
+SolverOptions LevelTwoOptions(const SolverOptions& options,
+                              const SolveSummary& level_one,
+                              double time_left_s) {
+  constexpr int kFollowingSteps = 3;
+  constexpr double kLeastTime = 1e-3;
+  SolverOptions level_two = options;
+  level_two.time_limit_s = std::max(kLeastTime, time_left_s);
+  if (level_one.status == SolveStatus::kTimeLimit ||
+      level_one.status == SolveStatus::kInterrupted) {
+    const bool moved = level_one.levels.front().iterations > 0;
+    level_two.max_iterations = moved ? std::min(kFollowingSteps, options.max_iterations) : 0;
+    level_two.time_limit_s = std::numeric_limits<double>::max();
+    level_two.should_stop = nullptr;
+  }
+  return level_two;
+}
+
+}  // namespace
+
+DecoupledSolver::DecoupledSolver(const StrategyOptions& options)
+    : mode_(options.mode), decoupler_(options), level_one_(options), level_two_(options) {}
+
+bool DecoupledSolver::HasLevelTwo() const {
+  return FindStrategy(mode_).hidden != HiddenNodes::kMoveAlong;
+}
+
+bool DecoupledSolver::Eliminates() const {
+  return FindStrategy(mode_).hidden == HiddenNodes::kAreEliminated;
+}
+
+SolveSummary DecoupledSolver::Solve(const ProblemBuilder& builder,
+                                    const SolverOptions& options,
+                                    DeformationState* state) {
+  const Timer timer;
+  const int num_nodes = builder.graph().num_nodes();
+  const std::vector<char> point_relevant = builder.PointRelevantNodes();
+  const Decoupling& nodes = decoupler_.Choose(builder.graph(), NodesOf(point_relevant));
+  const bool follows = HasLevelTwo() && (!Eliminates() || nodes.HoldsNodes(num_nodes));
+  const DeformationState start = *state;
+  SolveSummary summary;
+  bool solved = SolveLevelOne(
+      builder, nodes.LevelOne(num_nodes, builder.has_camera()), options, state, &summary);
+  if (solved && follows) {
+    const double time_left_s = options.time_limit_s - timer.Seconds();
+    solved = Follow(builder, point_relevant, options, time_left_s, state, &summary);
+  } else if (solved && HasLevelTwo()) {
+    // There may have been nothing to eliminate.
+    summary.levels.resize(2);
+  }
+  if (!solved) *state = start;
+  // A Level I that moves nodes and holds none has every residual.
+  if (!solved || follows || summary.levels.front().num_variable_nodes == 0) {
+    summary.initial_energy = builder.Evaluate(start).Total();
+    summary.final_energy = builder.Evaluate(*state).Total();
+  }
+  return summary;
+}
+
+// Level II. The status remains that of Level I where this one did not converge.
+bool DecoupledSolver::Follow(const ProblemBuilder& builder,
+                             const std::vector<char>& point_relevant,
+                             const SolverOptions& options,
+                             double time_left_s,
+                             DeformationState* state,
+                             SolveSummary* summary) {
+  const SolveStatus status = summary->status;
+  const std::string message = summary->message;
+  const SolverOptions level_two = LevelTwoOptions(options, *summary, time_left_s);
+  if (!SolveLevelTwo(builder, LevelTwoConfig(point_relevant), level_two, state, summary)) {
+    return false;
+  }
+  if (status != SolveStatus::kConverged) {
+    summary->status = status;
+    summary->message = message;
+  }
+  return true;
+}
+
+}  // namespace ceres_ed
