@@ -85,7 +85,10 @@ Status LoadPlugin(const std::string& path, EnergyRegistry* registry) {
   // dlopen looks for a bare name in the system's folders only.
   const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (library == nullptr) return Error(path, std::string("cannot be loaded: ") + dlerror());
+  if (library == nullptr) {
+    // The text is that of the calling thread. NOLINTNEXTLINE(concurrency-mt-unsafe)
+    return Error(path, std::string("cannot be loaded: ") + dlerror());
+  }
   // Never closed, not even after an error: some energies may have been registered by then.
   return RegisterFrom(library, path, registry);
 }

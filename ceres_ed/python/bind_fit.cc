@@ -59,6 +59,7 @@ StatusOr<FitResult> FitWithoutLock(const FitInput& input,
   return Fit(input, options, registry);
 }
 
+// One parameter for each of Python's. NOLINTNEXTLINE(readability-function-size)
 std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
                                            const py::object& target,
                                            const py::object& landmarks,

@@ -51,6 +51,7 @@ void SetAffine(Warp& warp, const py::object& object) {
 
 py::array Translation(const Warp& warp) {
   std::vector<Eigen::Vector3d> translations;
+  translations.reserve(warp.state.num_nodes());
   for (int j = 0; j < warp.state.num_nodes(); ++j) {
     translations.emplace_back(NodeTranslation(warp.state.node(j)));
   }

@@ -8,18 +8,17 @@
 namespace py = pybind11;
 
 PYBIND11_MODULE(_core, module) {
-  using namespace ceres_ed::python;
   module.doc() = "Embedded-deformation graphs on Ceres Solver.";
   module.attr("__version__") = ceres_ed::kVersion;
   // A class ahead of the functions that take it or return it, so that their texts name it.
-  BindCloud(module);
-  BindEnergies(module);
-  BindGraph(module);
-  BindWarp(module);
-  BindFitOptions(module);
-  BindFit(module);
-  BindEvaluate(module);
-  BindTracker(module);
+  ceres_ed::python::BindCloud(module);
+  ceres_ed::python::BindEnergies(module);
+  ceres_ed::python::BindGraph(module);
+  ceres_ed::python::BindWarp(module);
+  ceres_ed::python::BindFitOptions(module);
+  ceres_ed::python::BindFit(module);
+  ceres_ed::python::BindEvaluate(module);
+  ceres_ed::python::BindTracker(module);
   module.def(
       "backend",
       [] {

@@ -81,7 +81,8 @@ std::string LandmarkRow(int vertex, const Eigen::Vector3d& position) {
 bool IsAtRest(int vertex) { return vertex % 24 >= 11 && vertex % 24 <= 13; }
 
 Eigen::Vector3d SourcePoint(int vertex) {
-  return RingPoint(vertex % 24 / 24.0, vertex / 24 / 12.0);
+  const int row = vertex / 24;
+  return RingPoint(vertex % 24 / 24.0, row / 12.0);
 }
 
 TEST_F(EdFitTest, LandmarksPullAlongATarget) {

@@ -84,8 +84,10 @@ inline std::string RingVertexRows(const RingOptions& options) {
   std::ostringstream text;
   text.precision(17);
   for (int i = 0; i < options.size(); ++i) {
-    const double u = double(i % options.columns) / options.columns + options.phase;
-    const double v = double(i / options.columns) / options.rows + options.phase;
+    const int column = i % options.columns;
+    const int row = i / options.columns;
+    const double u = double(column) / options.columns + options.phase;
+    const double v = double(row) / options.rows + options.phase;
     Eigen::Vector3d point = options.bent ? BentPoint(RingPoint(u, v)) : RingPoint(u, v);
     point *= options.scale;
     if (options.is_nan(i)) point.x() = std::numeric_limits<double>::quiet_NaN();

@@ -254,7 +254,7 @@ Similarity RigidAligner::Refine(Similarity pose, int iterations) const {
     if (squared.empty()) return pose;
     const double distance = std::sqrt(Median(std::move(squared)));
     const double sigma = std::max(floor, 2.0 * kDeviationPerMedian * distance);
-    const Similarity before = pose;
+    Similarity before = pose;
     if (!Step(pairs, sigma, &pose)) return before;
     const Similarity change = pose * before.Inverse();
     if (change.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kConverged &&

@@ -108,6 +108,7 @@ void AddPointMatches(const std::vector<PointMatch>& matches,
                      double weight,
                      StepEquations* equations) {
   std::vector<double> distances;
+  distances.reserve(matches.size());
   for (const PointMatch& m : matches) {
     distances.push_back((pose * m.in_map - m.in_camera).norm());
   }

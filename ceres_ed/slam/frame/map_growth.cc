@@ -35,8 +35,10 @@ class Coverage {
     const double cell = surface_.cell();
     const double radius =
         spacing_ * std::max(surface_.camera().fx, surface_.camera().fy) / z / cell;
-    const double ci = (pixel.x() - surface_.cell() / 2) / cell;
-    const double cj = (pixel.y() - surface_.cell() / 2) / cell;
+    // The middle of a cell, in whole pixels.
+    const int middle = surface_.cell() / 2;
+    const double ci = (pixel.x() - middle) / cell;
+    const double cj = (pixel.y() - middle) / cell;
     const int i_end = std::min(covered_.width() - 1, static_cast<int>(std::floor(ci + radius)));
     const int j_end = std::min(covered_.height() - 1, static_cast<int>(std::floor(cj + radius)));
     for (int j = std::max(0, static_cast<int>(std::ceil(cj - radius))); j <= j_end; ++j) {
