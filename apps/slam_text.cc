@@ -2,6 +2,7 @@
 
 #include <ceres_ed/pipeline/slam/frame_records.h>
 #include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -15,13 +16,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 template <typename... Arguments>
 std::string Line(const char* format, Arguments... arguments) {
   char text[256];
@@ -34,7 +28,7 @@ std::string Line(const char* format, Arguments... arguments) {
 std::string SlamSummary(const SlamRun& run) {
   const std::vector<FrameRecord>& records = *run.records;
   const DeformableSlam& slam = *run.slam;
-  const double median_s = Median(ColumnOf(records, "t_total"));
+  const double median_s = InterpolatedMedian(ColumnOf(records, "t_total"));
   return Line("status     %s: %s\n", run.status.c_str(), run.message.c_str()) +
          Line("frames     %zu: %d tracked, %d relocalized, %d lost, %d skipped\n",
               records.size(),
@@ -48,7 +42,7 @@ std::string SlamSummary(const SlamRun& run) {
               slam.map().graph().num_nodes(),
               1e3 * slam.unit()) +
          Line("rms        %.3g mm to planes (median of the frames)\n",
-              1e3 * Median(ColumnOf(records, "rms_plane"))) +
+              1e3 * InterpolatedMedian(ColumnOf(records, "rms_plane"))) +
          Line("time       %.2f s, %.1f ms a frame (median)\n", run.total_s, 1e3 * median_s) +
          "output     " + run.settings->output + "\n";
 }

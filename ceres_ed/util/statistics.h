@@ -24,6 +24,15 @@ T Median(std::vector<T> values) {
   return *middle;
 }
 
+// Returns the median as statistics of reports have it, or 0 if there are no values: of an even
+// number of values the mean of the two in the middle.
+inline double InterpolatedMedian(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const std::size_t middle = values.size() / 2;
+  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
+}
+
 // Returns an estimate of the standard deviation of values that scatter around 0, which outliers
 // hardly change: 1.4826 times the median of the absolute values; 0 if there are no values.
 inline double RobustDeviation(std::vector<double> values) {

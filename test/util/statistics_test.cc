@@ -18,6 +18,12 @@ TEST(Median, IsTheUpperOneOfTwoInTheMiddle) {
 
 TEST(Median, IsZeroWithoutValues) { EXPECT_EQ(Median(std::vector<double>()), 0.0); }
 
+TEST(InterpolatedMedian, IsTheMeanOfTheTwoInTheMiddle) {
+  EXPECT_EQ(InterpolatedMedian({3.0, 1.0, 4.0, 2.0}), 2.5);
+  EXPECT_EQ(InterpolatedMedian({5.0, -1.0, 0.5}), 0.5);
+  EXPECT_EQ(InterpolatedMedian({}), 0.0);
+}
+
 TEST(RobustDeviation, IsThatOfAGaussianForItsMedian) {
   EXPECT_EQ(RobustDeviation({}), 0.0);
   EXPECT_DOUBLE_EQ(RobustDeviation({-2.0}), 2.9652);

@@ -20,9 +20,10 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
   options.should_stop = [observer] { return observer->ShouldStop(); };
   options.on_progress = [observer](const FitProgress& progress) {
     constexpr int kSteps = 100;
+    const std::string inliers = ", " + std::to_string(progress.inliers) + " inliers";
     observer->OnProgress(static_cast<int>(std::lround(kSteps * progress.fraction)),
                          kSteps,
-                         progress.stage + ", " + std::to_string(progress.inliers) + " inliers");
+                         progress.stage + (progress.stage == "rigid" ? "" : inliers));
   };
   return Fit(input, options, registry);
 }

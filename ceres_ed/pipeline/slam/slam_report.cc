@@ -4,6 +4,7 @@
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/pipeline/slam/frame_records.h>
 #include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/util/statistics.h>
 #include <ceres_ed/version.h>
 
 #include <algorithm>
@@ -21,20 +22,13 @@ namespace {
 
 using nlohmann::ordered_json;
 
-double Median(std::vector<double> values) {
-  if (values.empty()) return 0.0;
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
 double Mean(const std::vector<double>& values) {
   if (values.empty()) return 0.0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
 ordered_json Statistics(const std::vector<double>& values) {
-  return {{"median", Median(values)},
+  return {{"median", InterpolatedMedian(values)},
           {"mean", Mean(values)},
           {"max", values.empty() ? 0.0 : *std::max_element(values.begin(), values.end())}};
 }

@@ -6,12 +6,14 @@
 #include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/pipeline/slam/slam_report.h>
+#include <ceres_ed/util/text.h>
 
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace ceres_ed {
@@ -37,13 +39,6 @@ std::string FirstDifference(const std::string& now, const std::string& before) {
     b.clear();
   }
   return "fewer flags, expected the same";
-}
-
-std::vector<std::string> SplitSentences(const std::string& lines) {
-  std::vector<std::string> sentences;
-  std::istringstream stream(lines);
-  for (std::string line; std::getline(stream, line);) sentences.push_back(line);
-  return sentences;
 }
 
 }  // namespace
@@ -303,7 +298,8 @@ void SlamSession::ExchangeProgress(CheckpointArchive* archive) {
   if (archive->saving() || !archive->status().ok()) return;
   depth_checked_ = checked != 0;
   seconds_before_ = seconds;
-  warnings_->Restore(SplitSentences(warnings));
+  const std::vector<std::string_view> sentences = SplitLines(warnings, '\n');
+  warnings_->Restore({sentences.begin(), sentences.end()});
 }
 
 }  // namespace ceres_ed

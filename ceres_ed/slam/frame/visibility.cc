@@ -1,10 +1,12 @@
 #include "ceres_ed/slam/frame/visibility.h"
 
+#include <ceres_ed/geometry/nearest_pixel.h>
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
+#include <utility>
 
 namespace ceres_ed {
 namespace {
@@ -35,14 +37,10 @@ int CellSize(const std::vector<VisiblePoint>& points,
   std::vector<double> depths;
   depths.reserve(points.size());
   for (const VisiblePoint& point : points) depths.push_back(point.in_camera.z());
-  const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
-  std::nth_element(depths.begin(), middle, depths.end());
   const double f = std::max(camera.fx, camera.fy);
-  return static_cast<int>(std::clamp(options.cell_size * f / *middle, 2.0, 64.0));
+  const double pixels = options.cell_size * f / Median(std::move(depths));
+  return static_cast<int>(std::clamp(pixels, 2.0, 64.0));
 }
-
-// The pixel column or row that a coordinate of a place in the picture falls on.
-int Nearest(double coordinate) { return static_cast<int>(coordinate + 0.5); }
 
 }  // namespace
 
@@ -54,7 +52,7 @@ MapOcclusion::MapOcclusion(const std::vector<VisiblePoint>& in_picture,
       min_cosine_(std::cos(options.max_view_angle_deg * M_PI / 180.0)),
       nearest_(camera, CellSize(in_picture, camera, options)) {
   for (const VisiblePoint& point : in_picture) {
-    nearest_.Add(Nearest(point.pixel.x()), Nearest(point.pixel.y()), point.in_camera.z());
+    nearest_.Add(NearestPixel(point.pixel.x()), NearestPixel(point.pixel.y()), point.in_camera.z());
   }
 }
 
@@ -67,7 +65,7 @@ bool MapOcclusion::Sees(const Eigen::Vector3d& place,
   const double z = place.z();
   const double rise = nearest_.cell() * z * z / facing *
                       (std::abs(normal.x()) / camera_.fx + std::abs(normal.y()) / camera_.fy);
-  const double nearest = nearest_.At(Nearest(pixel.x()), Nearest(pixel.y()));
+  const double nearest = nearest_.At(NearestPixel(pixel.x()), NearestPixel(pixel.y()));
   return !(z > nearest + options_.depth_tolerance + rise);
 }
 
