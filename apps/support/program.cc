@@ -24,9 +24,11 @@ void ConfigureMemory() {
 #ifdef __GLIBC__
   constexpr int kNever = 1 << 30;
   constexpr int kHeapStep = 16 << 20;
+  // NOLINTBEGIN(concurrency-mt-unsafe): there is one thread yet.
   mallopt(M_TRIM_THRESHOLD, kNever);
   mallopt(M_MMAP_THRESHOLD, kNever);
   mallopt(M_TOP_PAD, kHeapStep);
+  // NOLINTEND(concurrency-mt-unsafe)
 #endif
 }
 

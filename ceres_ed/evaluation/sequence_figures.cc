@@ -4,6 +4,7 @@ namespace ceres_ed {
 
 AcrossFrames SummarizeTruth(const std::vector<FrameTruthError>& frames, const TruthFigure& figure) {
   std::vector<std::optional<double>> values;
+  values.reserve(frames.size());
   for (const FrameTruthError& frame : frames) values.push_back(figure.Of(frame));
   return SummarizeFrames(values);
 }

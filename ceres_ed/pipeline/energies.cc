@@ -35,6 +35,7 @@ std::vector<std::string> IdlePluginWarnings(const EnergyRegistry& registry,
     if (info != nullptr) plugins.erase(info->origin);
   }
   std::vector<std::string> warnings;
+  warnings.reserve(plugins.size());
   for (const std::string& plugin : plugins) {
     warnings.push_back(plugin + " was loaded, and none of its energies is used: expected one in " +
                        "--energy");

@@ -80,8 +80,7 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
     return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
   }
   EnergyRegistry registry;
-  const Outcome energies =
-      LoadEnergies(settings.plugin, settings.options.extra_energies, &registry);
+  Outcome energies = LoadEnergies(settings.plugin, settings.options.extra_energies, &registry);
   if (!energies.done()) return energies;
   const Status status = PrepareOutputs(settings);
   if (!status.ok()) return Outcome::BadInput(status);

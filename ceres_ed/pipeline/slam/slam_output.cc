@@ -97,8 +97,9 @@ struct FileSizes {
 Status ReopenFile(const std::string& path, double size, AppendFile* file) {
   if (size < 0.0) return Status::Ok();
   StatusOr<AppendFile> reopened = AppendFile::Reopen(path, static_cast<std::int64_t>(size));
-  if (reopened.ok()) *file = *std::move(reopened);
-  return reopened.status();
+  if (!reopened.ok()) return reopened.status();
+  *file = *std::move(reopened);
+  return Status::Ok();
 }
 
 }  // namespace

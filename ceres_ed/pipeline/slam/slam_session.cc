@@ -64,7 +64,7 @@ Outcome SlamSession::TakeFrames() {
   const Timer timer;
   const int start = next_;
   while (next_ < total) {
-    const Outcome outcome = TakeFrame();
+    Outcome outcome = TakeFrame();
     if (!outcome.done()) return outcome;
     const double rate = (next_ - start) / std::max(1e-9, timer.Seconds());
     observer_->OnFrame(records_.back(), next_, total, rate);
@@ -99,7 +99,7 @@ Outcome SlamSession::TakeFrame() {
   } else {
     if (!frame->warning.empty()) warnings_->Add("color", frame->warning);
     CheckDepth(frame->depth);
-    const Outcome outcome = Track(*frame, index, &record);
+    Outcome outcome = Track(*frame, index, &record);
     if (!outcome.done()) return outcome;
   }
   records_.push_back(record);
