@@ -68,6 +68,8 @@ if(CERES_ED_BUILD_PYTHON)
     "embedded deformation graphs: Python package"
     "${ceres_ed_text}\n
 This package has the Python module ceres_ed, which works on numpy arrays.")
+  configure_file(scripts/cmake/python_prerm.in ${PROJECT_BINARY_DIR}/debian/python/prerm @ONLY)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/python/prerm)
 endif()
 if(CERES_ED_BUILD_PCL)
   ceres_ed_add_package(
