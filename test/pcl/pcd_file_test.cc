@@ -110,6 +110,18 @@ TEST(PcdFile, KeepsEveryTypeAndListsOfOneLength) {
   }
 }
 
+TEST(PcdFile, SkipsPaddingAndTakesTheOldNameOfFields) {
+  const TemporaryDirectory directory;
+  WriteBytes(directory / "a.pcd",
+             "COLUMNS x _ y z\nSIZE 4 1 4 4\nTYPE F U F F\nCOUNT 1 2 1 1\nPOINTS 2\nDATA ascii\n"
+             "1 0 0 2 3\n4 0 0 5 6\n");
+  const StatusOr<LoadedCloud> loaded = LoadCloud(directory / "a.pcd");
+  ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+  EXPECT_THAT(loaded->cloud.points,
+              ElementsAre(Eigen::Vector3d(1, 2, 3), Eigen::Vector3d(4, 5, 6)));
+  EXPECT_EQ(loaded->document.Find("vertex")->properties.size(), 3u);
+}
+
 TEST(PcdFile, SaysWhatItCannotHold) {
   const TemporaryDirectory directory;
   PointCloud cloud;
