@@ -47,6 +47,7 @@ Status RegisterFloor(EnergyRegistry* registry) {
 }
 
 constexpr int kSide = 21;
+constexpr int kMiddle = kSide / 2;
 
 // A sheet of kSide x kSide points around the origin with a diagonal of 1.
 PointCloud MakeSheet() {
@@ -55,7 +56,7 @@ PointCloud MakeSheet() {
   for (int i = 0; i < kSide * kSide; ++i) {
     const int column = i % kSide;
     const int row = i / kSide;
-    sheet.points.push_back(step * Eigen::Vector3d(column - kSide / 2, row - kSide / 2, 0.0));
+    sheet.points.push_back(step * Eigen::Vector3d(column - kMiddle, row - kMiddle, 0.0));
     if (column + 1 == kSide || row + 1 == kSide) continue;
     sheet.triangles.push_back({i, i + 1, i + kSide});
     sheet.triangles.push_back({i + 1, i + kSide + 1, i + kSide});

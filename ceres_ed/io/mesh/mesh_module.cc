@@ -29,6 +29,7 @@ fs::path OwnFolder() {
 // Files to load, in order. The last has no folder: the system looks where it has its libraries.
 std::vector<fs::path> Candidates(const std::string& file) {
   std::vector<fs::path> candidates;
+  // Nothing here sets the environment. NOLINTNEXTLINE(concurrency-mt-unsafe)
   const char* const named = std::getenv("CERES_ED_MODULES");
   if (named != nullptr && *named != '\0') candidates.push_back(fs::path(named) / file);
   const fs::path own = OwnFolder();
@@ -49,6 +50,7 @@ StatusOr<void*> Open(const std::string& file) {
     // A module that is there and cannot be loaded is the error to tell.
     if (candidate.has_parent_path()) break;
   }
+  // The text is that of the calling thread. NOLINTNEXTLINE(concurrency-mt-unsafe)
   const char* const reason = dlerror();
   return Status::Error(reason != nullptr ? reason : file + ": cannot be loaded");
 }
