@@ -87,6 +87,14 @@ class CheckCode(unittest.TestCase):
         self.expect("<!-- tested by: suite.case -->\n```python\nx\n```\n")
         self.expect("<!-- tested by: suite -->\n```python\nx\n```\n", "no test 'suite'")
 
+    def test_asks_for_no_test_that_the_build_leaves_out(self):
+        self.write("README.md", "<!-- tested by: python.readme -->\n```python\nx\n```\n")
+        work = os.path.join(self._folder.name, "work")
+        for left_out, num_errors in ((["python."], 0), (["install."], 1), ([], 1)):
+            checker = Checker(self.source, work, [], {}, "", ["suite.case"], left_out)
+            checker.check("README.md")
+            self.assertEqual(len(checker.errors), num_errors, checker.errors)
+
     def test_tells_what_is_not_run_and_why(self):
         checker = self.check("<!-- not run: needs root -->\n```sh\nfalse\n```\n")
         self.assertEqual(checker.errors, [])
