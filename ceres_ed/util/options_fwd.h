@@ -1,0 +1,12 @@
+// What the header of an Options struct needs of its rows (options.h).
+#ifndef CERES_ED_UTIL_OPTIONS_FWD_H_
+#define CERES_ED_UTIL_OPTIONS_FWD_H_
+
+namespace ceres_ed {
+
+template <typename Options>
+class OptionTable;
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_UTIL_OPTIONS_FWD_H_
