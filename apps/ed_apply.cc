@@ -3,23 +3,41 @@
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/warp_io.h>
 #include <ceres_ed/pipeline/outputs.h>
+#include <ceres_ed/util/options.h>
 
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include <apps/support/option_flags.h>
 #include <apps/support/program.h>
-#include <gflags/gflags.h>
 #include <glog/logging.h>
-
-DEFINE_string(output, "", "PLY file to write: IN.ply deformed, all else of it kept; required");
 
 namespace ceres_ed {
 namespace {
 
+struct ApplySettings {
+  std::string output;
+};
+
+const OptionTable<ApplySettings>& ApplyRows() {
+  using S = ApplySettings;
+  static const OptionTable<S> rows({
+      Row(&S::output, "output", "PLY to write: IN.ply deformed, with all else it has; required.")
+          .Letter('o')
+          .File(),
+  });
+  return rows;
+}
+
+const OptionFlags<ApplySettings> flags(ApplyRows());
+
 Outcome Run(const std::vector<std::string>& arguments) {
-  if (FLAGS_output.empty()) return Outcome::Usage("flag --output is required");
-  if (Status status = PrepareOutput(FLAGS_output); !status.ok()) return Outcome::BadInput(status);
+  const StatusOr<ApplySettings> settings = flags.Read();
+  if (!settings.ok()) return Outcome::Usage(settings.status().message());
+  const std::string& output = settings->output;
+  if (output.empty()) return Outcome::Usage("flag --output is required");
+  if (Status status = PrepareOutput(output); !status.ok()) return Outcome::BadInput(status);
   const StatusOr<Warp> warp = ReadWarp(arguments[0]);
   if (!warp.ok()) return Outcome::BadInput(warp.status());
   StatusOr<LoadedCloud> loaded = LoadCloud(arguments[1]);
@@ -30,12 +48,12 @@ Outcome Run(const std::vector<std::string>& arguments) {
     return Outcome::BadInput(Status::Error(arguments[0] + ": " + status.message()));
   }
   const Status saved =
-      SaveCloud(FLAGS_output, *loaded, cloud.points, cloud.HasNormals() ? &cloud.normals : nullptr);
+      SaveCloud(output, *loaded, cloud.points, cloud.HasNormals() ? &cloud.normals : nullptr);
   if (!saved.ok()) return Outcome::BadInput(saved);
 
   for (const std::string& warning : loaded->warnings) LOG(WARNING) << warning;
   std::printf("%s: %zu points deformed by %d nodes\n",
-              FLAGS_output.c_str(),
+              output.c_str(),
               cloud.size(),
               warp->graph.num_nodes());
   return Outcome::Done();

@@ -2,28 +2,51 @@
 #include <ceres_ed/energy/energy_listing.h>
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/util/options.h>
 
+#include <array>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include <apps/support/option_flags.h>
 #include <apps/support/program.h>
-#include <gflags/gflags.h>
-
-DEFINE_string(plugin, "", "shared object whose energies are listed too; several with ; between");
-DEFINE_string(format, "text", "text or markdown");
 
 namespace ceres_ed {
 namespace {
 
+enum class ListFormat { kText, kMarkdown };
+
+constexpr std::array<NamedValue<ListFormat>, 2> NamesOf(ListFormat) {
+  return {{{"text", ListFormat::kText}, {"markdown", ListFormat::kMarkdown}}};
+}
+
+struct ListSettings {
+  std::string plugin;
+  ListFormat format = ListFormat::kText;
+};
+
+const OptionTable<ListSettings>& ListRows() {
+  using S = ListSettings;
+  static const OptionTable<S> rows({
+      Row(&S::plugin,
+          "plugin",
+          "Shared object whose energies are listed, too; several with ; between them.")
+          .File(),
+      Row(&S::format, "format", "How the energies are written.").Main(),
+  });
+  return rows;
+}
+
+const OptionFlags<ListSettings> flags(ListRows());
+
 Outcome Run(const std::vector<std::string>&) {
-  if (FLAGS_format != "text" && FLAGS_format != "markdown") {
-    return Outcome::Usage("--format=" + FLAGS_format + ", expected text or markdown");
-  }
+  const StatusOr<ListSettings> settings = flags.Read();
+  if (!settings.ok()) return Outcome::Usage(settings.status().message());
   EnergyRegistry registry;
-  const Outcome outcome = LoadEnergies(FLAGS_plugin, {}, &registry);
+  const Outcome outcome = LoadEnergies(settings->plugin, {}, &registry);
   if (outcome.code != ExitCode::kDone) return outcome;
-  if (FLAGS_format == "markdown") {
+  if (settings->format == ListFormat::kMarkdown) {
     std::fputs(ListEnergiesAsMarkdown(registry).c_str(), stdout);
     return Outcome::Done();
   }

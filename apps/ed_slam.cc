@@ -11,9 +11,6 @@
 #include <apps/support/console.h>
 #include <apps/support/program.h>
 #include <apps/support/run_flags.h>
-#include <gflags/gflags.h>
-
-DEFINE_bool(overwrite, false, "replace a result that is in --output already");
 
 namespace ceres_ed {
 namespace {
@@ -49,7 +46,6 @@ Outcome Run(const std::vector<std::string>& arguments) {
   StatusOr<SlamCommand> command = ReadSlamFlags();
   if (!command.ok()) return Outcome::Usage(command.status().message());
   command->input = arguments[0];
-  command->overwrite = FLAGS_overwrite;
   command->flags = CurrentFlags();
   command->fixed_flags = FixedFlags();
   command->strategy_flags = StrategyFlags();

@@ -1,34 +1,47 @@
 #include "apps/eval_flags.h"
 
+#include <ceres_ed/util/options.h>
+
 #include <utility>
 
-#include <gflags/gflags.h>
-
-DEFINE_string(source, "", "PLY that was fitted; measures stretched edges and flipped triangles");
-DEFINE_string(truth, "", "PLY with the true place of every point of RESULT.ply, in its order");
-DEFINE_string(report, "", "JSON file to write with every figure");
-DEFINE_string(error_ply,
-              "",
-              "PLY file to write: RESULT.ply with each point's error (to truth, else target)");
-DEFINE_string(sequence, "", "folder of a depth sequence; measures --result instead of a pair");
-DEFINE_string(result, "", "folder that ed_slam wrote for --sequence");
+#include <apps/support/option_flags.h>
 
 namespace ceres_ed {
 namespace {
+
+const OptionTable<EvalSettings>& EvalRows() {
+  using S = EvalSettings;
+  static const OptionTable<S> rows({
+      Row(&S::source, "source", "PLY that was fitted: measures stretched edges and flipped faces.")
+          .File(),
+      Row(&S::truth, "truth", "PLY with the true place of every point of RESULT.ply, in its order.")
+          .File(),
+      Row(&S::sequence, "sequence", "Folder of a depth sequence: measures --result, not a pair.")
+          .File(),
+      Row(&S::result, "result", "Folder that ed_slam wrote for --sequence.").File(),
+      Row(&S::report, "report", "JSON to write: every figure.").File(),
+      Row(&S::error_ply,
+          "error_ply",
+          "PLY to write: RESULT.ply with the error of each point, to the truth or the target.")
+          .File(),
+      NotData(&S::fitted),
+      NotData(&S::target),
+      NotData(&S::flags),
+  });
+  return rows;
+}
+
+const OptionFlags<EvalSettings> flags(EvalRows());
 
 constexpr char kUses[] = "expected RESULT.ply TARGET.ply, or --sequence=SEQ --result=DIR";
 
 }  // namespace
 
 StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments) {
-  EvalSettings settings;
-  settings.source = FLAGS_source;
-  settings.truth = FLAGS_truth;
-  settings.error_ply = FLAGS_error_ply;
-  settings.sequence = FLAGS_sequence;
-  settings.result = FLAGS_result;
-  settings.report = FLAGS_report;
-  if (FLAGS_sequence.empty() && FLAGS_result.empty()) {
+  StatusOr<EvalSettings> read = flags.Read();
+  if (!read.ok()) return read.status();
+  EvalSettings settings = *std::move(read);
+  if (settings.sequence.empty() && settings.result.empty()) {
     if (arguments.size() != 2) {
       return Status::Error(std::to_string(arguments.size()) + " arguments given, " + kUses);
     }
@@ -36,14 +49,14 @@ StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments) 
     settings.target = arguments[1];
     return settings;
   }
-  if (FLAGS_result.empty()) return Status::Error("--sequence without --result, expected both");
-  if (FLAGS_sequence.empty()) return Status::Error("--result without --sequence, expected both");
+  if (settings.result.empty()) return Status::Error("--sequence without --result, expected both");
+  if (settings.sequence.empty()) return Status::Error("--result without --sequence, expected both");
   if (!arguments.empty()) {
     return Status::Error("'" + arguments[0] + "' beside --sequence, " + kUses);
   }
-  for (const auto& [name, value] : {std::pair("source", FLAGS_source),
-                                    std::pair("truth", FLAGS_truth),
-                                    std::pair("error_ply", FLAGS_error_ply)}) {
+  for (const auto& [name, value] : {std::pair("source", settings.source),
+                                    std::pair("truth", settings.truth),
+                                    std::pair("error_ply", settings.error_ply)}) {
     if (!value.empty()) {
       return Status::Error("--" + std::string(name) +
                            " beside --sequence, expected it with a pair only");

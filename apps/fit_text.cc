@@ -20,7 +20,7 @@ std::string FitSummary(const FitRun& run) {
   const int nodes = result.warp.graph.num_nodes();
   const int pr = NumPointRelevant(result);
   std::string summary =
-      Line("status     %s: %s", SolveStatusName(result.status).c_str(), result.message.c_str()) +
+      Line("status     %s: %s", NameOf(result.status).c_str(), result.message.c_str()) +
       Line("nodes      %d (%d PR, %d PI)", nodes, pr, nodes - pr);
   if (!run.files->target.path.empty()) {
     summary +=

@@ -3,14 +3,22 @@
 #define CERES_ED_APPS_SLAM_FLAGS_H_
 
 #include <ceres_ed/pipeline/slam/slam_settings.h>
+#include <ceres_ed/util/named_values.h>
 #include <ceres_ed/util/status.h>
 
+#include <array>
 #include <string>
 
 namespace ceres_ed {
 
 // How a run tells how far it is.
 enum class ProgressStyle { kBar, kJson, kNone };
+
+constexpr std::array<NamedValue<ProgressStyle>, 3> NamesOf(ProgressStyle) {
+  return {{{"bar", ProgressStyle::kBar},
+           {"json", ProgressStyle::kJson},
+           {"none", ProgressStyle::kNone}}};
+}
 
 // What the command line asks for: the run, and what the program shows of it.
 struct SlamCommand : SlamSettings {
@@ -22,8 +30,8 @@ struct SlamCommand : SlamSettings {
 // expected.
 StatusOr<SlamCommand> ReadSlamFlags();
 
-// Return a line `--name=value` for each flag that a run is resumed with as it was, and for each
-// that says how the levels are solved: these may change on the way, the map is the same in kind.
+// Return a line `--name=value` for each flag that must stay when a run is resumed, and for each
+// that may change but is noted then (ResumeRule).
 std::string FixedFlags();
 std::string StrategyFlags();
 

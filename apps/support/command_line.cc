@@ -1,28 +1,25 @@
 #include "apps/support/command_line.h"
 
 #include <ceres_ed/linear_algebra/linear_algebra_backend.h>
+#include <ceres_ed/util/nearest_word.h>
 #include <ceres_ed/version.h>
 
-#include <charconv>
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <thread>
+
+#include <apps/support/option_flags.h>
 
 namespace ceres_ed {
 namespace {
 
 constexpr int kHelpColumns = 100;
 constexpr int kMaxFlagFileDepth = 8;
-
-// Every flag of a program is defined under the folder that this file's folder is in.
-std::string_view AppsFolder() {
-  constexpr std::string_view kThisFile = __FILE__;
-  constexpr std::string_view kPathInApps = "support/command_line.cc";
-  return kThisFile.substr(0, kThisFile.size() - kPathInApps.size());
-}
 
 bool StartsWith(std::string_view text, std::string_view prefix) {
   return text.substr(0, prefix.size()) == prefix;
@@ -33,7 +30,7 @@ bool EndsWith(std::string_view text, std::string_view suffix) {
 }
 
 bool IsOwnFlag(const gflags::CommandLineFlagInfo& flag) {
-  return StartsWith(flag.filename, AppsFolder());
+  return flag.filename == kOptionFlagsFile;
 }
 
 // gflags brings twenty flags for help, completion and the environment, none of which works here.
@@ -42,8 +39,29 @@ bool IsGflagsHelper(const gflags::CommandLineFlagInfo& flag) {
          EndsWith(flag.filename, "gflags_completions.cc");
 }
 
+// Finds a flag by its name or its letter.
 bool FindFlag(const std::string& name, gflags::CommandLineFlagInfo* flag) {
-  return gflags::GetCommandLineFlagInfo(name.c_str(), flag) && !IsGflagsHelper(*flag);
+  const OptionFlag* option = FindOptionFlag(name);
+  const std::string& full_name = option != nullptr ? option->option->name : name;
+  return gflags::GetCommandLineFlagInfo(full_name.c_str(), flag) && !IsGflagsHelper(*flag);
+}
+
+Status UnknownFlag(const std::string& name) {
+  std::vector<std::string> known = {"help", "version"};
+  for (const OptionFlag* flag : RegisteredOptionFlags()) known.push_back(flag->option->name);
+  const std::string nearest = NearestWord(name, known);
+  return Status::Error("unknown flag --" + name +
+                       (nearest.empty() ? "" : ", did you mean --" + nearest + "?"));
+}
+
+// What stands on a flag for a word that a number has; nothing where it is no such word.
+std::optional<std::string> ValueOfWord(const std::string& flag, const std::string& word) {
+  const OptionFlag* option = FindOptionFlag(flag);
+  if (option == nullptr) return std::nullopt;
+  for (const SpecialValue& special : option->option->specials) {
+    if (word == special.word) return NumberText(special.on_flag);
+  }
+  return std::nullopt;
 }
 
 std::string TypeName(const gflags::CommandLineFlagInfo& flag) {
@@ -79,9 +97,9 @@ class Parser {
     const bool has_value = equals != std::string::npos;
     std::string name = word.substr(start, has_value ? equals - start : std::string::npos);
     std::string value = has_value ? word.substr(equals + 1) : "";
-    if (!has_value && (name == "help" || name == "h" || name == "version")) {
-      result_.request =
-          name == "version" ? CommandLine::Request::kVersion : CommandLine::Request::kHelp;
+    if (name == "help" || name == "h") return TakeHelp(value);
+    if (name == "version" && !has_value) {
+      result_.request = CommandLine::Request::kVersion;
       return Status::Ok();
     }
 
@@ -90,7 +108,7 @@ class Parser {
     if (!is_file && !FindFlag(name, &flag)) {
       const bool negated = !has_value && StartsWith(name, "no") &&
                            FindFlag(name.substr(2), &flag) && flag.type == "bool";
-      if (!negated) return Status::Error("unknown flag --" + name);
+      if (!negated) return UnknownFlag(name);
       return SetFlag(flag, "false");
     }
     if (!has_value) {
@@ -101,6 +119,19 @@ class Parser {
       value = words_[next_++];
     }
     return is_file ? TakeFile(value, depth + 1) : SetFlag(flag, value);
+  }
+
+  Status TakeHelp(const std::string& scope) {
+    if (scope.empty()) {
+      result_.request = CommandLine::Request::kHelp;
+    } else if (scope == "all") {
+      result_.request = CommandLine::Request::kHelpAll;
+    } else if (scope == "markdown") {
+      result_.request = CommandLine::Request::kHelpMarkdown;
+    } else {
+      return Status::Error("--help=" + scope + ", expected all");
+    }
+    return Status::Ok();
   }
 
   // One flag a line; empty lines and lines that begin with # say nothing.
@@ -125,7 +156,8 @@ class Parser {
     return Status::Ok();
   }
 
-  Status SetFlag(const gflags::CommandLineFlagInfo& flag, const std::string& value) {
+  Status SetFlag(const gflags::CommandLineFlagInfo& flag, const std::string& given) {
+    const std::string value = ValueOfWord(flag.name, given).value_or(given);
     const bool is_nan = flag.type == "double" && std::isnan(std::strtod(value.c_str(), nullptr));
     if (is_nan || gflags::SetCommandLineOption(flag.name.c_str(), value.c_str()).empty()) {
       return Status::Error("bad value --" + flag.name + "=" + value + ", expected " +
@@ -161,11 +193,87 @@ std::string Wrap(const std::string& text, int indent, int width) {
 }
 
 std::string ShortValue(const gflags::CommandLineFlagInfo& flag, const std::string& value) {
-  if (flag.type != "double") return value;
-  constexpr int kLongestDouble = 64;
-  char text[kLongestDouble];
-  const double number = std::strtod(value.c_str(), nullptr);
-  return std::string(text, std::to_chars(text, text + kLongestDouble, number).ptr);
+  return flag.type == "double" ? NumberText(std::strtod(value.c_str(), nullptr)) : value;
+}
+
+gflags::CommandLineFlagInfo InfoOf(const OptionFlag& flag) {
+  return gflags::GetCommandLineFlagInfoOrDie(flag.option->name.c_str());
+}
+
+std::string DefaultOf(const OptionFlag& flag) {
+  const gflags::CommandLineFlagInfo info = InfoOf(flag);
+  return ShortValue(info, info.default_value);
+}
+
+// "0 = automatic"
+std::string SpecialsText(const Option& option) {
+  std::string text;
+  for (const SpecialValue& special : option.specials) {
+    text += (text.empty() ? "" : ", ") + NumberText(special.on_flag) + " = " + special.word;
+  }
+  return text;
+}
+
+// The sentence, the names or words that a value may have, the default and the unit.
+std::string DescriptionOf(const OptionFlag& flag) {
+  const Option& option = *flag.option;
+  std::string text = option.doc;
+  if (!flag.names.empty()) text += " One of " + flag.names + ".";
+  if (const std::string specials = SpecialsText(option); !specials.empty()) {
+    text += " " + specials + ".";
+  }
+  const std::string fallback = DefaultOf(flag);
+  if (fallback.empty()) return text;
+  return text + " [" + fallback + (option.unit.empty() ? "" : " " + option.unit) + "]";
+}
+
+// "output, -o"
+std::string NamesOf(const Option& option) {
+  return option.letter == 0 ? option.name : option.name + ", -" + option.letter;
+}
+
+struct HelpGroup {
+  OptionGroup group;
+  const char* title;
+};
+constexpr HelpGroup kHelpGroups[] = {{OptionGroup::kFiles, "Files"},
+                                     {OptionGroup::kMain, "What matters"},
+                                     {OptionGroup::kExpert, "For experts"}};
+
+std::vector<const OptionFlag*> FlagsOf(OptionGroup group) {
+  std::vector<const OptionFlag*> flags;
+  for (const OptionFlag* flag : RegisteredOptionFlags()) {
+    if (flag->option->group == group) flags.push_back(flag);
+  }
+  return flags;
+}
+
+std::string HelpLines(const std::vector<const OptionFlag*>& flags, std::size_t name_width) {
+  constexpr int kTypeWidth = 10;
+  const int indent = static_cast<int>(name_width) + kTypeWidth + 6;
+  std::string text;
+  for (const OptionFlag* flag : flags) {
+    const std::string names = NamesOf(*flag->option);
+    const std::string type = TypeName(InfoOf(*flag));
+    text += "  --" + names + std::string(name_width - names.size() + 1, ' ') + type +
+            std::string(kTypeWidth - type.size() + 1, ' ') +
+            Wrap(DescriptionOf(*flag), indent, kHelpColumns - indent) + "\n";
+  }
+  return text;
+}
+
+std::string RangeCell(const OptionFlag& flag) {
+  const std::string type = TypeName(InfoOf(flag));
+  if (!flag.names.empty()) return flag.names;
+  return type == "text" || type == "true|false" ? type : flag.expected;
+}
+
+// A bar would end the cell.
+std::string AsCell(const std::string& text) {
+  std::string cell;
+  for (const char letter : text)
+    cell += letter == '|' ? std::string("\\|") : std::string(1, letter);
+  return cell.empty() ? "-" : cell;
 }
 
 std::string ArgumentCountText(const ProgramInfo& info) {
@@ -186,23 +294,40 @@ StatusOr<CommandLine> ParseCommandLine(const ProgramInfo& info, int argc, const 
   return parsed;
 }
 
-std::string HelpText(const ProgramInfo& info) {
+std::string HelpText(const ProgramInfo& info, HelpScope scope) {
   std::string text = "Usage: " + info.name + " " + info.arguments + "\n\n" +
-                     Wrap(info.description, 0, kHelpColumns) + "\n\nFlags [default]:\n";
-  const std::vector<gflags::CommandLineFlagInfo> flags = OwnFlags();
+                     Wrap(info.description, 0, kHelpColumns) + "\n";
   std::size_t name_width = 0;
-  for (const auto& flag : flags) name_width = std::max(name_width, flag.name.size());
-  constexpr int kTypeWidth = 10;
-  const int indent = static_cast<int>(name_width) + kTypeWidth + 6;
-  for (const auto& flag : flags) {
-    const std::string type = TypeName(flag);
-    const std::string fallback =
-        flag.default_value.empty() ? "" : " [" + ShortValue(flag, flag.default_value) + "]";
-    text += "  --" + flag.name + std::string(name_width - flag.name.size() + 1, ' ') + type +
-            std::string(kTypeWidth - type.size() + 1, ' ') +
-            Wrap(flag.description + fallback, indent, kHelpColumns - indent) + "\n";
+  std::size_t num_hidden = 0;
+  for (const OptionFlag* flag : RegisteredOptionFlags()) {
+    const bool is_hidden =
+        scope == HelpScope::kShort && flag->option->group == OptionGroup::kExpert;
+    if (is_hidden) ++num_hidden;
+    if (!is_hidden) name_width = std::max(name_width, NamesOf(*flag->option).size());
+  }
+  for (const HelpGroup& group : kHelpGroups) {
+    const std::vector<const OptionFlag*> flags = FlagsOf(group.group);
+    if (flags.empty()) continue;
+    if (scope == HelpScope::kShort && group.group == OptionGroup::kExpert) continue;
+    text += "\n" + std::string(group.title) + " [default]:\n" + HelpLines(flags, name_width);
+  }
+  if (num_hidden > 0) {
+    text += "\n--help=all shows " + std::to_string(num_hidden) + " more flags, for experts.\n";
   }
   return text + "\nExample: " + info.example + "\n";
+}
+
+std::string FlagsAsMarkdown() {
+  std::string table = "| flag | unit | range | default | meaning |\n|---|---|---|---|---|\n";
+  for (const HelpGroup& group : kHelpGroups) {
+    for (const OptionFlag* flag : FlagsOf(group.group)) {
+      const Option& option = *flag->option;
+      table += "| `--" + option.name + "` | " + AsCell(option.unit) + " | " +
+               AsCell(RangeCell(*flag)) + " | " + AsCell(DefaultOf(*flag)) + " | " +
+               AsCell(option.doc) + " |\n";
+    }
+  }
+  return table;
 }
 
 std::string VersionText() {

@@ -14,19 +14,31 @@ namespace ceres_ed {
 
 // What a command line asks for; flags have been set when it is returned.
 struct CommandLine {
-  enum class Request { kRun, kHelp, kVersion };
+  enum class Request { kRun, kHelp, kHelpAll, kHelpMarkdown, kVersion };
 
   Request request = Request::kRun;
   std::vector<std::string> arguments;
 };
 
 // Sets the flags that are named on the command line and returns the rest. Takes --name=value,
-// --name value, --flag and --noflag, with one dash or two; `--` ends the flags. Error: unknown
-// flag, bad value, wrong number of positional arguments.
+// --name value, --flag and --noflag, with one dash or two, and the letters of flags that have one;
+// `--` ends the flags. A number may be given by its word ("auto"). Error: unknown flag, with the
+// nearest one that there is; bad value; wrong number of positional arguments.
 StatusOr<CommandLine> ParseCommandLine(const ProgramInfo& info, int argc, const char* const* argv);
 
+// What --help shows.
+enum class HelpScope {
+  // Files, and what matters to most users.
+  kShort,
+  // Every flag.
+  kAll,
+};
+
 // Returns the text of --help: at most 100 columns.
-std::string HelpText(const ProgramInfo& info);
+std::string HelpText(const ProgramInfo& info, HelpScope scope);
+
+// Returns a table of all flags for a page: name, unit, range, default and meaning.
+std::string FlagsAsMarkdown();
 
 // Returns the text of --version: ceres_ed, Ceres, sparse library, BLAS and hardware threads, a line
 // each.
@@ -36,7 +48,7 @@ std::string VersionText();
 // text of 0.1 is 0.10000000000000001. `name` is that of a flag that is there.
 std::string CurrentValue(const std::string& name);
 
-// Returns the program's own flags, those defined under apps/, by name.
+// Returns the program's own flags (option_flags.h) by name.
 std::vector<gflags::CommandLineFlagInfo> OwnFlags();
 
 }  // namespace ceres_ed

@@ -68,7 +68,13 @@ Outcome ParseAndRun(const ProgramInfo& info,
   if (!command_line.ok()) return Outcome::Usage(command_line.status().message());
   switch (command_line->request) {
     case CommandLine::Request::kHelp:
-      std::fputs(HelpText(info).c_str(), stdout);
+      std::fputs(HelpText(info, HelpScope::kShort).c_str(), stdout);
+      return Outcome::Done();
+    case CommandLine::Request::kHelpAll:
+      std::fputs(HelpText(info, HelpScope::kAll).c_str(), stdout);
+      return Outcome::Done();
+    case CommandLine::Request::kHelpMarkdown:
+      std::fputs(FlagsAsMarkdown().c_str(), stdout);
       return Outcome::Done();
     case CommandLine::Request::kVersion:
       std::fputs(VersionText().c_str(), stdout);
@@ -94,7 +100,8 @@ int RunProgram(const ProgramInfo& info,
   if (outcome.code != ExitCode::kDone) {
     std::string line = info.name + ": " + outcome.message;
     std::replace(line.begin(), line.end(), '\n', ' ');
-    if (outcome.code == ExitCode::kUsage) line += "; see --help";
+    if (outcome.code == ExitCode::kUsage)
+      line += line.back() == '?' ? " (see --help)" : "; see --help";
     std::fprintf(stderr, "%s\n", line.c_str());
   }
   return static_cast<int>(outcome.code);

@@ -26,8 +26,8 @@ struct ProgramInfo {
 };
 
 // Parses the command line, runs `body` with the positional arguments, and returns the exit code for
-// main(). Flags are the DEFINE_s of the files under apps/ (of gflags' own only --flagfile, of
-// glog's all, but hidden). --help and --version print to stdout and end with 0. A bad command line,
+// main(). Flags are those of option_flags.h (of gflags' own only --flagfile, of glog's all, but
+// hidden). --help and --version print to stdout and end with 0. A bad command line,
 // an outcome other than done, and an exception that escapes `body` print one line on stderr:
 // "ed_fit: <sentence>".
 int RunProgram(const ProgramInfo& info,

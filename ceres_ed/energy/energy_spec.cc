@@ -12,17 +12,6 @@
 namespace ceres_ed {
 namespace {
 
-struct NamedLoss {
-  const char* name;
-  LossType type;
-};
-constexpr NamedLoss kLosses[] = {{"squared", LossType::kSquared},
-                                 {"huber", LossType::kHuber},
-                                 {"cauchy", LossType::kCauchy},
-                                 {"tukey", LossType::kTukey},
-                                 {"welsch", LossType::kWelsch},
-                                 {"geman_mcclure", LossType::kGemanMcClure}};
-
 Status SetParameter(const std::string& key, const std::string& value, EnergySpec* spec) {
   if (key == "loss") {
     StatusOr<LossType> type = ParseLossType(value);
@@ -82,19 +71,9 @@ StatusOr<EnergySpec> ParseOne(const std::string& text) {
 }  // namespace
 
 StatusOr<LossType> ParseLossType(const std::string& name) {
-  std::string known;
-  for (const NamedLoss& loss : kLosses) {
-    if (name == loss.name) return loss.type;
-    known += std::string(known.empty() ? "" : ", ") + loss.name;
-  }
-  return Status::Error("loss '" + name + "', expected one of: " + known);
-}
-
-std::string LossTypeName(LossType type) {
-  for (const NamedLoss& loss : kLosses) {
-    if (type == loss.type) return loss.name;
-  }
-  LOG(FATAL) << "unnamed loss " << static_cast<int>(type);
+  const std::optional<LossType> type = FindByName<LossType>(name);
+  if (type.has_value()) return *type;
+  return Status::Error("loss '" + name + "', expected one of: " + ListNames<LossType>(", "));
 }
 
 std::unique_ptr<ceres::LossFunction> MakeLoss(const LossSpec& spec) {

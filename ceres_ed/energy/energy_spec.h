@@ -2,8 +2,10 @@
 #ifndef CERES_ED_ENERGY_ENERGY_SPEC_H_
 #define CERES_ED_ENERGY_ENERGY_SPEC_H_
 
+#include <ceres_ed/util/named_values.h>
 #include <ceres_ed/util/status.h>
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -15,6 +17,15 @@ namespace ceres_ed {
 
 enum class LossType { kSquared, kHuber, kCauchy, kTukey, kWelsch, kGemanMcClure };
 
+constexpr std::array<NamedValue<LossType>, 6> NamesOf(LossType) {
+  return {{{"squared", LossType::kSquared},
+           {"huber", LossType::kHuber},
+           {"cauchy", LossType::kCauchy},
+           {"tukey", LossType::kTukey},
+           {"welsch", LossType::kWelsch},
+           {"geman_mcclure", LossType::kGemanMcClure}}};
+}
+
 // A robust loss and the residual, in the residual's unit, at which it begins to give way.
 struct LossSpec {
   LossType type = LossType::kSquared;
@@ -22,9 +33,8 @@ struct LossSpec {
   double width = 0.01;
 };
 
-// Error: unknown name; lists the known ones: squared huber cauchy tukey welsch geman_mcclure.
+// Error: unknown name; lists the known ones.
 StatusOr<LossType> ParseLossType(const std::string& name);
-std::string LossTypeName(LossType type);
 
 // Null for kSquared, as Ceres has it.
 std::unique_ptr<ceres::LossFunction> MakeLoss(const LossSpec& spec);

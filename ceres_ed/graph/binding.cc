@@ -104,19 +104,6 @@ void EnterSurface(const PointCloud& cloud,
 
 }  // namespace
 
-bool BindingOptions::IsValid(std::string* error) const {
-  if (neighbors < 1 || neighbors > kMaxBoundNodes) {
-    *error = "neighbors is " + std::to_string(neighbors) + ", expected 1 to " +
-             std::to_string(kMaxBoundNodes);
-    return false;
-  }
-  if (num_threads < 1) {
-    *error = "num_threads is " + std::to_string(num_threads) + ", expected at least 1";
-    return false;
-  }
-  return true;
-}
-
 int ComputeWeights(const double* distances, int count, int neighbors, double* weights) {
   CHECK_GE(neighbors, 1);
   int used = std::min(count, neighbors + 1);

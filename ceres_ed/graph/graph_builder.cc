@@ -170,29 +170,6 @@ void WarnAboutNodes(const SamplingPlan& plan, BuiltGraph* built) {
 
 }  // namespace
 
-bool GraphOptions::IsValid(std::string* error) const {
-  const auto fail = [error](const char* name, double value, const char* expected) {
-    *error = Sentence(name, " is ", value, ", expected ", expected);
-    return false;
-  };
-  if (!(node_spacing >= 0.0) || !std::isfinite(node_spacing)) {
-    return fail("node_spacing", node_spacing, "0 (automatic) or a length");
-  }
-  if (target_nodes < 0) return fail("target_nodes", target_nodes, "0 (automatic) or a count");
-  if (!(auto_spacing > 0.0) || !std::isfinite(auto_spacing)) {
-    return fail("auto_spacing", auto_spacing, "a fraction above 0");
-  }
-  if (edges_per_node < 1) return fail("edges_per_node", edges_per_node, "at least 1");
-  if (min_component_points < 1) {
-    return fail("min_component_points", min_component_points, "at least 1");
-  }
-  if (edges_per_joint < 1) return fail("edges_per_joint", edges_per_joint, "at least 1");
-  BindingOptions binding;
-  binding.neighbors = neighbors;
-  binding.num_threads = num_threads;
-  return binding.IsValid(error);
-}
-
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
                                 const SurfaceTopology& topology,
                                 const GraphOptions& options) {

@@ -2,6 +2,10 @@
 #ifndef CERES_ED_GRAPH_GRAPH_OPTIONS_H_
 #define CERES_ED_GRAPH_GRAPH_OPTIONS_H_
 
+#include <ceres_ed/util/named_values.h>
+#include <ceres_ed/util/options_fwd.h>
+
+#include <array>
 #include <string>
 
 namespace ceres_ed {
@@ -13,6 +17,10 @@ enum class DistanceRule {
   kEuclidean,
 };
 
+constexpr std::array<NamedValue<DistanceRule>, 2> NamesOf(DistanceRule) {
+  return {{{"surface", DistanceRule::kSurface}, {"euclidean", DistanceRule::kEuclidean}}};
+}
+
 // How points are bound to nodes.
 struct BindingOptions {
   // m of Eq. 2: nodes a point, in [1, kMaxBoundNodes].
@@ -23,6 +31,8 @@ struct BindingOptions {
 
   // False, with a sentence in `error`, when a value is out of range.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<BindingOptions>& Rows();
 };
 
 // How nodes are chosen among the points.
@@ -33,6 +43,10 @@ enum class SamplingRule {
   kFarthest,
 };
 
+constexpr std::array<NamedValue<SamplingRule>, 2> NamesOf(SamplingRule) {
+  return {{{"uniform", SamplingRule::kUniform}, {"farthest", SamplingRule::kFarthest}}};
+}
+
 // Which nodes share an edge.
 enum class EdgeRule {
   // SharedInfluenceEdges (Sumner et al. 2007).
@@ -40,6 +54,10 @@ enum class EdgeRule {
   // NearestNodeEdges, alpha = 1.
   kNearest,
 };
+
+constexpr std::array<NamedValue<EdgeRule>, 2> NamesOf(EdgeRule) {
+  return {{{"shared_influence", EdgeRule::kSharedInfluence}, {"nearest", EdgeRule::kNearest}}};
+}
 
 struct GraphOptions {
   SamplingRule sampling = SamplingRule::kUniform;
@@ -69,6 +87,8 @@ struct GraphOptions {
 
   // False, with a sentence in `error`, when a value is out of range.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<GraphOptions>& Rows();
 };
 
 }  // namespace ceres_ed

@@ -2,6 +2,9 @@
 #ifndef CERES_ED_PROBLEM_PROBLEM_TYPES_H_
 #define CERES_ED_PROBLEM_PROBLEM_TYPES_H_
 
+#include <ceres_ed/util/named_values.h>
+
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,10 @@ enum class SeamEdges {
   // It is left out, as in the paper's figure on node types. The seam may tear.
   kCut,
 };
+
+constexpr std::array<NamedValue<SeamEdges>, 2> NamesOf(SeamEdges) {
+  return {{{"keep", SeamEdges::kKeep}, {"cut", SeamEdges::kCut}}};
+}
 
 // The cost of one term. With the sum over residual blocks i of the term:
 struct TermEnergy {

@@ -34,7 +34,7 @@ EnergySpec MakeEnergy(const std::string& name,
 std::string Describe(const EnergySpec& spec) {
   std::string text = "Energy('" + spec.name +
                      "', weight=" + std::string(py::repr(py::float_(spec.weight))) + ", loss='" +
-                     LossTypeName(spec.loss.type) +
+                     NameOf(spec.loss.type) +
                      "', loss_width=" + std::string(py::repr(py::float_(spec.loss.width)));
   for (const auto& [name, value] : spec.parameters) {
     text += ", " + name + "=" + std::string(py::repr(py::float_(value)));
@@ -137,7 +137,7 @@ void BindEnergies(py::module_& module) {
       .def(py::init(&MakeEnergy),
            py::arg("name"),
            py::arg("weight") = defaults.weight,
-           py::arg("loss") = LossTypeName(defaults.loss.type),
+           py::arg("loss") = NameOf(defaults.loss.type),
            py::arg("loss_width") = defaults.loss.width,
            R"(An energy of list_energies() with its parameters as keywords; the rest have defaults.
 
@@ -147,8 +147,7 @@ Args:
   loss_width: residual, in its unit, at which the loss begins to give way, > 0.)")
       .def_readonly("name", &EnergySpec::name)
       .def_readonly("weight", &EnergySpec::weight)
-      .def_property_readonly("loss",
-                             [](const EnergySpec& self) { return LossTypeName(self.loss.type); })
+      .def_property_readonly("loss", [](const EnergySpec& self) { return NameOf(self.loss.type); })
       .def_property_readonly("loss_width", [](const EnergySpec& self) { return self.loss.width; })
       .def_readonly("parameters", &EnergySpec::parameters, "Those that were given, by name.")
       .def("__repr__", &Describe);

@@ -189,7 +189,7 @@ void BindNumbers(ResultClass* result) {
   using R = FitResult;
   result->def_property_readonly(
       "status",
-      [](const FittedSurface& self) { return SolveStatusName(self.result.status); },
+      [](const FittedSurface& self) { return NameOf(self.result.status); },
       "'converged', 'max_iterations', 'time_limit' or 'interrupted'; of the last two `points` are "
       "the best so far.");
   AddNumber(
@@ -258,7 +258,7 @@ void BindNumbers(ResultClass* result) {
   result->def("__repr__", [](const FittedSurface& self) {
     return "<ceres_ed.FitResult of " + std::to_string(self.result.points.size()) + " points, " +
            std::to_string(self.result.warp.graph.num_nodes()) +
-           " nodes: " + SolveStatusName(self.result.status) + ">";
+           " nodes: " + NameOf(self.result.status) + ">";
   });
 }
 

@@ -8,19 +8,13 @@
 #include <ceres_ed/python/surfaces.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <pybind11/stl.h>
 
 namespace ceres_ed::python {
 namespace {
-
-constexpr Choice<SamplingRule> kSamplings[] = {{"uniform", SamplingRule::kUniform},
-                                               {"farthest", SamplingRule::kFarthest}};
-constexpr Choice<DistanceRule> kDistances[] = {{"surface", DistanceRule::kSurface},
-                                               {"euclidean", DistanceRule::kEuclidean}};
-constexpr Choice<EdgeRule> kEdges[] = {{"shared_influence", EdgeRule::kSharedInfluence},
-                                       {"nearest", EdgeRule::kNearest}};
 
 void AddEdges(const py::object& edges, const py::object& weights, DeformationGraph* graph) {
   if (IsNone(edges)) return;
@@ -81,58 +75,6 @@ Graph Build(const py::object& surface_object,
   return graph;
 }
 
-void BindOptions(py::module_& module) {
-  using O = GraphOptions;
-  OptionsClass<O>(module, "GraphOptions", "How a graph is built. Lengths in the surface's unit.")
-      .Add(
-          "node_spacing",
-          [](O & o) -> auto& { return o.node_spacing; },
-          "Distance between nodes, >= 0; 0: from target_nodes.")
-      .Add(
-          "target_nodes",
-          [](O & o) -> auto& { return o.target_nodes; },
-          "Nodes wanted where node_spacing is 0, >= 0; 0: from auto_spacing.")
-      .Add(
-          "auto_spacing",
-          [](O & o) -> auto& { return o.auto_spacing; },
-          "Distance between nodes as a fraction of the bounding box's diagonal, > 0.")
-      .Add(
-          "neighbors",
-          [](O & o) -> auto& { return o.neighbors; },
-          "Nodes that carry a point, 1 to 8.")
-      .Add(
-          "sampling",
-          [](O & o) -> auto& { return o.sampling; },
-          kSamplings,
-          "'uniform', or 'farthest': more even, slower.")
-      .Add(
-          "distance",
-          [](O & o) -> auto& { return o.distance; },
-          kDistances,
-          "'surface': along the triangles; 'euclidean'.")
-      .Add(
-          "edges",
-          [](O & o) -> auto& { return o.edges; },
-          kEdges,
-          "'shared_influence': between nodes that carry the same points; 'nearest'.")
-      .Add(
-          "edges_per_node",
-          [](O & o) -> auto& { return o.edges_per_node; },
-          "Partners that a node keeps, >= 1.")
-      .Add(
-          "min_component_points",
-          [](O & o) -> auto& { return o.min_component_points; },
-          "Smaller parts of a mesh get no node of their own, >= 1.")
-      .Add(
-          "join_pieces",
-          [](O & o) -> auto& { return o.join_pieces; },
-          "Join the graph's pieces, so that none is left behind.")
-      .Add(
-          "threads",
-          [](O & o) -> auto& { return o.num_threads; },
-          "Changes the time, not the result, >= 1.");
-}
-
 }  // namespace
 
 py::array Nodes(const DeformationGraph& graph) {
@@ -157,21 +99,20 @@ py::array EdgeWeights(const DeformationGraph& graph) {
 BindingOptions ToBinding(int neighbors, const std::string& distance) {
   BindingOptions binding;
   binding.neighbors = neighbors;
-  if (distance != "surface" && distance != "euclidean") {
-    throw py::value_error("distance is '" + distance + "', expected 'surface' or 'euclidean'");
+  const std::optional<DistanceRule> rule = FindByName<DistanceRule>(distance);
+  if (!rule.has_value()) {
+    throw py::value_error("distance is '" + distance + "', expected '" +
+                          ListNames<DistanceRule>("' or '") + "'");
   }
-  binding.distance = distance == "surface" ? DistanceRule::kSurface : DistanceRule::kEuclidean;
+  binding.distance = *rule;
   std::string error;
   if (!binding.IsValid(&error)) throw py::value_error(error);
   return binding;
 }
 
-std::string DistanceName(DistanceRule rule) {
-  return rule == DistanceRule::kSurface ? "surface" : "euclidean";
-}
-
 void BindGraph(py::module_& module) {
-  BindOptions(module);
+  const OptionsClass<GraphOptions> options(
+      module, "GraphOptions", "How a graph is built. Lengths in the unit of the surface.");
   py::class_<Graph>(module, "Graph", R"(Nodes of a deformation graph and the edges between them.
 
 Arrays are copies to look at (the library keeps nodes where growing never moves them), of a few

@@ -66,7 +66,7 @@ void BindReport(py::module_& module) {
       .def_readonly("number", &R::number)
       .def_property_readonly(
           "status",
-          [](const R& self) { return FrameStatusName(self.status); },
+          [](const R& self) { return NameOf(self.status); },
           "'initialized', 'tracked', 'relocalized', 'lost' (the map is as it was) or 'skipped' "
           "(nothing to be seen).")
       .def_property_readonly("times", &Times, "Seconds by stage.")
@@ -82,9 +82,9 @@ void BindReport(py::module_& module) {
       .def_readonly("energy", &R::energy, "Of level I, no unit.")
       .def_readonly("iterations", &R::iterations, "Of level I.")
       .def("__repr__", [](const R& self) {
-        return "<ceres_ed.FrameReport " + std::to_string(self.number) + ": " +
-               FrameStatusName(self.status) + ", " + std::to_string(self.nodes) + " nodes, " +
-               std::to_string(self.map_points) + " points>";
+        return "<ceres_ed.FrameReport " + std::to_string(self.number) + ": " + NameOf(self.status) +
+               ", " + std::to_string(self.nodes) + " nodes, " + std::to_string(self.map_points) +
+               " points>";
       });
 }
 

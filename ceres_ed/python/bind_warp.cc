@@ -20,9 +20,9 @@ Warp MakeWarp(const Graph& graph, const py::object& neighbors, const py::object&
   Warp warp;
   warp.graph = graph.graph;
   warp.state.Resize(graph.graph.num_nodes());
-  warp.binding = ToBinding(
-      neighbors.is_none() ? graph.binding.neighbors : neighbors.cast<int>(),
-      distance.is_none() ? DistanceName(graph.binding.distance) : distance.cast<std::string>());
+  warp.binding =
+      ToBinding(neighbors.is_none() ? graph.binding.neighbors : neighbors.cast<int>(),
+                distance.is_none() ? NameOf(graph.binding.distance) : distance.cast<std::string>());
   return warp;
 }
 
@@ -160,7 +160,7 @@ it returns a pair (points, normals).)")
           "Nodes that carry a point.")
       .def_property_readonly(
           "distance",
-          [](const Warp& self) { return DistanceName(self.binding.distance); },
+          [](const Warp& self) { return NameOf(self.binding.distance); },
           "'surface' or 'euclidean': what is near.")
       .def_property_readonly(
           "finish_points",

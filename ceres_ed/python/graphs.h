@@ -30,7 +30,6 @@ pybind11::array EdgeWeights(const DeformationGraph& graph);
 
 // What is said of binding; ValueError on another word or number.
 BindingOptions ToBinding(int neighbors, const std::string& distance);
-std::string DistanceName(DistanceRule rule);
 
 }  // namespace ceres_ed::python
 

@@ -2,8 +2,13 @@
 #ifndef CERES_ED_PYTHON_OPTIONS_H_
 #define CERES_ED_PYTHON_OPTIONS_H_
 
-#include <cstddef>
+#include <ceres_ed/util/nearest_word.h>
+#include <ceres_ed/util/options.h>
+
 #include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
@@ -11,15 +16,7 @@ namespace ceres_ed::python {
 
 namespace py = pybind11;
 
-// A value of an enum and its name: the one that the programs' flags have for it.
-template <typename T>
-struct Choice {
-  const char* name;
-  T value;
-};
-
-// The class of an Options struct. Each option is declared once, with a function that returns a
-// reference to its field: name, default and text of everything else follow from that.
+// The class of an Options struct: an attribute for each row of its table that users see.
 template <typename Options>
 class OptionsClass {
  public:
@@ -42,51 +39,13 @@ class OptionsClass {
     class_.def("__copy__", [](const Options& self) { return self; });
     class_.def(
         "copy", [](const Options& self) { return self; }, "An equal object of its own.");
-  }
-
-  // Ends the declaration.
-  ~OptionsClass() { class_.attr("names") = py::tuple(names_); }
-  OptionsClass(const OptionsClass&) = delete;
-  OptionsClass& operator=(const OptionsClass&) = delete;
-
-  // A number or a flag.
-  template <typename Field>
-  OptionsClass& Add(const char* name, Field field, const char* doc) {
-    using Value = std::decay_t<decltype(field(std::declval<Options&>()))>;
-    return AddProperty(
-        name,
-        [field](Options& options) { return field(options); },
-        [field](Options& options, Value value) { field(options) = value; },
-        doc);
-  }
-
-  // One of a few names. `choices` must be static.
-  template <typename Field, typename T, std::size_t kSize>
-  OptionsClass& Add(const char* name,
-                    Field field,
-                    const Choice<T> (&choices)[kSize],
-                    const char* doc) {
-    const Choice<T>* begin = choices;
-    return AddProperty(
-        name,
-        [field, begin](Options& options) -> std::string {
-          for (std::size_t i = 0; i < kSize; ++i) {
-            if (begin[i].value == field(options)) return begin[i].name;
-          }
-          throw py::value_error("an option has no name");
-        },
-        [field, begin, name](Options& options, const std::string& value) {
-          std::string known;
-          for (std::size_t i = 0; i < kSize; ++i) {
-            if (value == begin[i].name) {
-              field(options) = begin[i].value;
-              return;
-            }
-            known += (i > 0 ? " or '" : "'") + std::string(begin[i].name) + "'";
-          }
-          throw py::value_error(std::string(name) + " is '" + value + "', expected " + known);
-        },
-        doc);
+    py::list names;
+    for (const Row& row : Options::Rows()) {
+      if (row.option.group == OptionGroup::kInternal) continue;
+      AddAttribute(row);
+      names.append(row.option.name);
+    }
+    class_.attr("names") = py::tuple(names);
   }
 
   // Sets the options that `changes` names; TypeError, with the known ones, on another name.
@@ -96,8 +55,8 @@ class OptionsClass {
     const py::tuple names = self.attr("names");
     for (const auto& [name, value] : changes) {
       if (!names.contains(name)) {
-        throw py::type_error(caller + "() knows no '" + std::string(py::str(name)) +
-                             "'; its options are " +
+        throw py::type_error(caller + "() knows no '" + std::string(py::str(name)) + "'" +
+                             Suggestion(std::string(py::str(name))) + "; its options are " +
                              std::string(py::str(", ").attr("join")(names).cast<std::string>()));
       }
       py::setattr(self, name, value);
@@ -105,19 +64,71 @@ class OptionsClass {
   }
 
  private:
-  template <typename Get, typename Set>
-  OptionsClass& AddProperty(const char* name, Get get, Set set, const char* doc) {
+  using Row = typename OptionTable<Options>::OneRow;
+
+  static std::string Suggestion(const std::string& misspelt) {
+    std::vector<std::string> known;
+    for (const Row& row : Options::Rows()) {
+      if (row.option.group != OptionGroup::kInternal) known.push_back(row.option.name);
+    }
+    const std::string nearest = NearestWord(misspelt, known);
+    return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
+  }
+
+  // The attribute has the type of the member. Tables live as long as the module.
+  void AddAttribute(const Row& row) {
     Options defaults;
-    const std::string text =
-        std::string(doc) + " Default: " + std::string(py::repr(py::cast(get(defaults)))) + ".";
-    class_.def_property(name, get, set, text.c_str());
-    names_.append(name);
-    return *this;
+    const OptionField field = row.field(&defaults);
+    const Row* kept = &row;
+    if (std::holds_alternative<NamedField>(field)) {
+      class_.def_property(
+          row.option.name.c_str(),
+          [kept](Options& options) { return OptionText(kept->field(&options)); },
+          [kept](Options& options, const std::string& name) { SetName(*kept, name, &options); },
+          TextOf(row, py::cast(OptionText(field))).c_str());
+      return;
+    }
+    std::visit(
+        [&](auto member) {
+          using Member = decltype(member);
+          if constexpr (std::is_pointer_v<Member>) {
+            using Value = std::remove_pointer_t<Member>;
+            class_.def_property(
+                row.option.name.c_str(),
+                [kept](Options& options) { return *std::get<Member>(kept->field(&options)); },
+                [kept](Options& options, Value value) {
+                  *std::get<Member>(kept->field(&options)) = value;
+                },
+                TextOf(row, py::cast(*member)).c_str());
+          }
+        },
+        field);
+  }
+
+  static void SetName(const Row& row, const std::string& name, Options* options) {
+    const auto field = std::get<NamedField>(row.field(options));
+    if (field.set(field.value, name)) return;
+    throw py::value_error(row.option.name + " is '" + name + "', expected '" +
+                          field.list("' or '") + "'");
+  }
+
+  // The sentence of the row, then what a value may be, its unit, and the default.
+  static std::string TextOf(const Row& row, const py::object& value) {
+    Options defaults;
+    const OptionField field = row.field(&defaults);
+    std::string text = row.option.doc;
+    if (const auto* named = std::get_if<NamedField>(&field)) {
+      text += " One of '" + named->list("', '") + "'.";
+    } else if (!std::holds_alternative<bool*>(field) &&
+               !std::holds_alternative<std::string*>(field)) {
+      text += " " + ExpectedText(row.option, field) +
+              (row.option.unit.empty() ? "." : ", " + row.option.unit + ".");
+    }
+    return text + " Default: " + std::string(py::repr(value)) + ".";
   }
 
   py::class_<Options> class_;
   std::string name_;
-  py::list names_;
 };
 
 }  // namespace ceres_ed::python

@@ -23,8 +23,6 @@ Tracker::Tracker(const PinholeCamera& camera,
     : camera_(camera), registry_(MakeRegistry(plugin)) {
   SlamOptions changed = options != nullptr ? *options : SlamOptions();
   OptionsClass<SlamOptions>::Apply("Tracker", changes, &changed);
-  changed.surface.num_threads = changed.num_threads;
-  changed.feature.pixels.num_threads = changed.num_threads;
   changed.levels.energies = ToEnergies(energies);
   ExpectLargeBlocks();
   camera_is_given_ = changed.camera == CameraMode::kGiven;

@@ -5,6 +5,7 @@
 #include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/graph/graph_options.h>
 #include <ceres_ed/solver/solver_types.h>
+#include <ceres_ed/util/options_fwd.h>
 
 #include <functional>
 #include <limits>
@@ -34,6 +35,8 @@ struct MatchingOptions {
   int num_threads = 1;
 
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<MatchingOptions>& Rows();
 };
 
 struct RigidOptions {
@@ -56,6 +59,8 @@ struct RigidOptions {
   std::function<bool()> should_stop;
 
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<RigidOptions>& Rows();
 };
 
 // How a finish is done. Lengths are in edges of the source (of bare points: distances to the
@@ -79,6 +84,8 @@ struct FinishOptions {
 
   // False, with a sentence in `error`, when a value is out of range.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<FinishOptions>& Rows();
 };
 
 // Weights of the objective (Eq. 3), >= 0. Each energy is a mean over its residuals, so that a
@@ -92,6 +99,9 @@ struct FitWeights {
   double fixed = 1e4;
   // Share of the data weight that goes to point-to-point instead of point-to-plane, in [0, 1].
   double point_to_point_share = 0.005;
+
+  // The options as data: name, range and text of each.
+  static const OptionTable<FitWeights>& Rows();
 };
 
 // From stiff to soft, and from few nodes to many: E_rot and E_reg start at `initial_stiffness`
@@ -116,6 +126,9 @@ struct FitSchedule {
   double tolerance = 2e-4;
   // Iterations of the solver in a round, >= 1.
   int solver_iterations = 1;
+
+  // The options as data: name, range and text of each.
+  static const OptionTable<FitSchedule>& Rows();
 };
 
 struct FitProgress {
@@ -166,13 +179,15 @@ struct FitOptions {
   bool covariance = false;
   // The result doesn't depend on it, >= 1.
   int num_threads = 1;
-  // Wall time of the whole fit, seconds, > 0.
-  double time_limit_s = 1e9;
+  // Wall time of the whole fit, seconds, > 0; infinity: none.
+  double time_limit_s = std::numeric_limits<double>::infinity();
   // Asked often; true ends the fit with the best state so far.
   std::function<bool()> should_stop;
   std::function<void(const FitProgress&)> on_progress;
 
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<FitOptions>& Rows();
 };
 
 }  // namespace ceres_ed

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <utility>
 
 #include <glog/logging.h>
@@ -219,23 +218,6 @@ std::vector<Candidate> FindCandidates(const MovedSource& source,
 }
 
 }  // namespace
-
-bool MatchingOptions::IsValid(std::string* error) const {
-  std::ostringstream message;
-  if (!(max_distance > 0.0)) {
-    message << "max_distance is " << max_distance << ", expected > 0";
-  } else if (!(max_angle_deg > 0.0 && max_angle_deg <= 180.0)) {
-    message << "max_angle_deg is " << max_angle_deg << ", expected in (0, 180]";
-  } else if (!(max_deviations > 0.0)) {
-    message << "max_deviations is " << max_deviations << ", expected > 0";
-  } else if (!(resolution >= 0.0)) {
-    message << "resolution is " << resolution << ", expected >= 0";
-  } else if (num_threads < 1) {
-    message << "num_threads is " << num_threads << ", expected >= 1";
-  }
-  *error = message.str();
-  return error->empty();
-}
 
 Matches MatchBothWays(const MovedSource& source,
                       const Surface& target,

@@ -1,6 +1,7 @@
 #include "ceres_ed/simulation/sequences.h"
 
 #include <ceres_ed/simulation/rendering.h>
+#include <ceres_ed/util/options.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,6 +20,8 @@ constexpr int kDefaultNodes = 1000;
 constexpr int kMinVertices = 500;
 constexpr int kDefaultVertices = 12000;
 constexpr int kMaxVertices = 1000000;
+constexpr int kMinPixels = 16;
+constexpr int kMaxPixels = 8192;
 // Of the view's length that the camera moves along a strip in a frame.
 constexpr double kStripStep = 0.05;
 constexpr double kMaxStripStep = 0.3;
@@ -61,8 +64,8 @@ std::unique_ptr<SyntheticScene> MakeScene(const SyntheticSequenceOptions& option
     return MakeStripScene(
         plan.views * StripViewLength(camera), plan.frames, options.period, camera);
   }
-  const auto shape = SyntheticShapeFromName(SyntheticSceneName(options.kind));
-  CHECK(shape.has_value()) << SyntheticSceneName(options.kind);
+  const auto shape = SyntheticShapeFromName(NameOf(options.kind));
+  CHECK(shape.has_value()) << NameOf(options.kind);
   return MakeOrganScene(*shape, vertices, frames(60), options.period);
 }
 
@@ -82,62 +85,68 @@ std::string Gigabytes(double bytes) {
 
 }  // namespace
 
-const std::vector<SyntheticSceneKind>& AllSyntheticSceneKinds() {
-  static const std::vector<SyntheticSceneKind> kinds = {SyntheticSceneKind::kStrip,
-                                                        SyntheticSceneKind::kHeart,
-                                                        SyntheticSceneKind::kKidney,
-                                                        SyntheticSceneKind::kStomach,
-                                                        SyntheticSceneKind::kPlane};
-  return kinds;
-}
-
-const char* SyntheticSceneName(SyntheticSceneKind kind) {
-  switch (kind) {
-    case SyntheticSceneKind::kStrip:
-      return "strip";
-    case SyntheticSceneKind::kHeart:
-      return "heart";
-    case SyntheticSceneKind::kKidney:
-      return "kidney";
-    case SyntheticSceneKind::kStomach:
-      return "stomach";
-    case SyntheticSceneKind::kPlane:
-      return "plane";
-  }
-  LOG(FATAL) << "scene " << static_cast<int>(kind);
-  return "";
-}
-
-std::optional<SyntheticSceneKind> SyntheticSceneFromName(const std::string& name) {
-  for (const SyntheticSceneKind kind : AllSyntheticSceneKinds()) {
-    if (name == SyntheticSceneName(kind)) return kind;
-  }
-  return std::nullopt;
+const OptionTable<SyntheticSequenceOptions>& SyntheticSequenceOptions::Rows() {
+  using O = SyntheticSequenceOptions;
+  static const OptionTable<O> rows({
+      Row(&O::kind, "scene", "What is seen.").Group(OptionGroup::kInternal),
+      Row(&O::frames,
+          "frames",
+          "The number of frames; automatic is 60 for an organ, 10 for plane, and as many as its "
+          "length asks for with strip.")
+          .In(Between(1, kMaxFrames))
+          .Special(0, "automatic")
+          .Main(),
+      Row(&O::nodes_hint,
+          "nodes_hint",
+          "The length of strip in nodes: a map with 300 nodes in view ends with about as many; "
+          "automatic is by --frames, or 1000.")
+          .In(Between(kNodesInView, kMaxFrames))
+          .Special(0, "automatic")
+          .Main(),
+      Row(&O::width, "width", "The columns of the pictures, which cover 59.5 degrees.")
+          .In(Between(kMinPixels, kMaxPixels))
+          .Unit("pixels")
+          .Main(),
+      Row(&O::height, "height", "The rows of the pictures.")
+          .In(Between(kMinPixels, kMaxPixels))
+          .Unit("pixels")
+          .Main(),
+      Row(&O::seed, "seed", "The seed of texture and noise.").Main(),
+      Row(&O::noise,
+          "noise",
+          "The standard deviation of the depth where the surface faces the camera; it grows toward "
+          "grazing angles, where pixels drop out.")
+          .In(AtLeast(0))
+          .Unit("metres")
+          .Special(0, "exact to 0.1 mm")
+          .Main(),
+      Row(&O::period, "period", "The frames in which the tissue moves there and back.")
+          .In(AtLeast(2))
+          .Unit("frames")
+          .Main(),
+      Row(&O::vertices,
+          "vertices",
+          "The vertices of the tissue; automatic is 12000. A strip has one every 1.5 mm.")
+          .In(Between(kMinVertices, kMaxVertices))
+          .Special(0, "automatic")
+          .Main(),
+      Row(&O::truth, "truth", "Also write the truth for every vertex; poses always are.").Main(),
+      Row(&O::max_truth_bytes, "max_truth_bytes", "A larger truth is thinned, or left out.")
+          .In(Above(0))
+          .Unit("bytes"),
+  });
+  return rows;
 }
 
 bool SyntheticSequenceOptions::IsValid(std::string* error) const {
+  if (!Rows().Check(*this, error)) return false;
   std::ostringstream message;
   const bool is_strip = kind == SyntheticSceneKind::kStrip;
-  if (frames < 0 || frames > kMaxFrames) {
-    message << "frames is " << frames << ", expected 1 to " << kMaxFrames
-            << " (0: the scene's usual number)";
-  } else if (!is_strip && nodes_hint != 0) {
-    message << "nodes_hint is " << nodes_hint << ", but " << SyntheticSceneName(kind)
+  if (!is_strip && nodes_hint != 0) {
+    message << "nodes_hint is " << nodes_hint << ", but " << NameOf(kind)
             << " has a length of its own, expected it with strip only";
-  } else if (nodes_hint != 0 && (nodes_hint < kNodesInView || nodes_hint > kMaxFrames)) {
-    message << "nodes_hint is " << nodes_hint << ", expected " << kNodesInView << " (one view) to "
-            << kMaxFrames;
   } else if (is_strip && vertices != 0) {
     message << "vertices is " << vertices << ", but a strip has one every 1.5 mm, expected 0";
-  } else if (vertices != 0 && (vertices < kMinVertices || vertices > kMaxVertices)) {
-    message << "vertices is " << vertices << ", expected " << kMinVertices << " to "
-            << kMaxVertices;
-  } else if (std::min(width, height) < 16 || std::max(width, height) > 8192) {
-    message << "the picture is " << width << " x " << height << ", expected 16 to 8192 pixels";
-  } else if (!std::isfinite(noise) || noise < 0.0) {
-    message << "noise is " << noise << ", expected metres >= 0";
-  } else if (!std::isfinite(period) || period < 2.0) {
-    message << "period is " << period << ", expected frames >= 2";
   } else if (is_strip) {
     const StripPlan plan = PlanStrip(*this);
     const int fewest = static_cast<int>(std::ceil((plan.views - 1.0) / kMaxStripStep - 1e-9)) + 1;

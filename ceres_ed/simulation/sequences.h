@@ -9,11 +9,13 @@
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/simulation/scene.h>
 #include <ceres_ed/simulation/texture.h>
+#include <ceres_ed/util/named_values.h>
+#include <ceres_ed/util/options_fwd.h>
 #include <ceres_ed/util/status.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,14 +25,13 @@ namespace ceres_ed {
 
 enum class SyntheticSceneKind { kStrip, kHeart, kKidney, kStomach, kPlane };
 
-// Returns every kind, in the order of the enumeration.
-const std::vector<SyntheticSceneKind>& AllSyntheticSceneKinds();
-
-// Returns "strip", "heart", "kidney", "stomach" or "plane".
-const char* SyntheticSceneName(SyntheticSceneKind kind);
-
-// Returns the kind of that name, nothing if there is none.
-std::optional<SyntheticSceneKind> SyntheticSceneFromName(const std::string& name);
+constexpr std::array<NamedValue<SyntheticSceneKind>, 5> NamesOf(SyntheticSceneKind) {
+  return {{{"strip", SyntheticSceneKind::kStrip},
+           {"heart", SyntheticSceneKind::kHeart},
+           {"kidney", SyntheticSceneKind::kKidney},
+           {"stomach", SyntheticSceneKind::kStomach},
+           {"plane", SyntheticSceneKind::kPlane}}};
+}
 
 struct SyntheticSequenceOptions {
   SyntheticSceneKind kind = SyntheticSceneKind::kHeart;
@@ -61,6 +62,8 @@ struct SyntheticSequenceOptions {
   // False, with the value and what was expected in `error`, where a value is out of range or a
   // strip's camera would have to move by more than 30 % of its view a frame.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<SyntheticSequenceOptions>& Rows();
 };
 
 // A frame and what made it.

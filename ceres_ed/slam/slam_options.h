@@ -4,7 +4,10 @@
 
 #include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/solver/solver_types.h>
+#include <ceres_ed/util/named_values.h>
+#include <ceres_ed/util/options_fwd.h>
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -20,6 +23,12 @@ enum class CameraMode {
   kGiven,
 };
 
+constexpr std::array<NamedValue<CameraMode>, 3> NamesOf(CameraMode) {
+  return {{{"estimate", CameraMode::kEstimate},
+           {"fixed", CameraMode::kFixed},
+           {"given", CameraMode::kGiven}}};
+}
+
 // When Level II moves a PI node.
 enum class LevelTwoMode {
   // In every frame.
@@ -27,6 +36,10 @@ enum class LevelTwoMode {
   // When what pulls at it has moved; the others are left behind until somebody asks for them.
   kLazy,
 };
+
+constexpr std::array<NamedValue<LevelTwoMode>, 2> NamesOf(LevelTwoMode) {
+  return {{{"full", LevelTwoMode::kFull}, {"lazy", LevelTwoMode::kLazy}}};
+}
 
 // A wave goes out from what has moved: the unsettled nodes, and so many rings around them, are
 // solved with the rest held; those at the rim that have moved unsettle the nodes behind them.
@@ -43,11 +56,11 @@ struct LazyOptions {
 
   // False, with the option and what was expected in `error`, when a value is out of range.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<LazyOptions>& Rows();
 };
 
 struct LevelsOptions {
-  LevelsOptions();
-
   // Lengths are node spacings, and the data are counted per PR node, so that these mean the same
   // at any scale and density. All >= 0.
   double rotation_weight = 0.1;
@@ -63,16 +76,21 @@ struct LevelsOptions {
   bool camera_variable = true;
   // Which nodes a level moves. By default kTwoLevel; kMarginal eliminates the PI nodes within 8
   // rings, or all of them where Level II is full.
-  StrategyOptions strategy;
+  StrategyOptions strategy = TwoLevels();
   LevelTwoMode level_two = LevelTwoMode::kLazy;
   LazyOptions lazy;
   // One step by default: the observations change with it. More are taken only where the first ones
   // bring nothing.
-  SolverOptions solver;
+  SolverOptions solver = OneStep();
   // More energies, by name.
   std::vector<EnergySpec> energies;
 
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<LevelsOptions>& Rows();
+  // The defaults of `strategy` and of `solver`.
+  static StrategyOptions TwoLevels();
+  static SolverOptions OneStep();
 };
 
 struct PixelTrackerOptions {
@@ -89,6 +107,9 @@ struct PixelTrackerOptions {
   double quality = 0.005;
   // Corners are followed on so many threads, >= 1; the result doesn't depend on it.
   int num_threads = 1;
+
+  // The options as data: name, range and text of each.
+  static const OptionTable<PixelTrackerOptions>& Rows();
 };
 
 struct FeatureOptions {
@@ -97,6 +118,9 @@ struct FeatureOptions {
   // A corner that stays farther from where the map has it than this many deviations is dropped.
   double max_deviations = 6.0;
   PixelTrackerOptions pixels;
+
+  // The options as data: name, range and text of each.
+  static const OptionTable<FeatureOptions>& Rows();
 };
 
 // Lengths in map units (node spacings).
@@ -109,6 +133,9 @@ struct MapGrowthOptions {
   int edges_per_node = 6;
   // Patches turned farther from the camera are left until they are seen better, degrees.
   double max_view_angle_deg = 75.0;
+
+  // The options as data: name, range and text of each.
+  static const OptionTable<MapGrowthOptions>& Rows();
 };
 
 // How depth images are smoothed.
@@ -121,6 +148,9 @@ struct ObservedSurfaceOptions {
   double max_slope_deg = 80.0;
   // Threads of the fit, >= 1; the result doesn't depend on it.
   int num_threads = 1;
+
+  // The options as data: name, range and text of each.
+  static const OptionTable<ObservedSurfaceOptions>& Rows();
 };
 
 struct TissueMemoryOptions {
@@ -130,6 +160,9 @@ struct TissueMemoryOptions {
   double likeness = 0.05;
   // A moment counts in full when this many nodes in view were in view then too, >= 1.
   int min_common = 20;
+
+  // The options as data: name, range and text of each.
+  static const OptionTable<TissueMemoryOptions>& Rows();
 };
 
 struct SlamOptions {
@@ -160,6 +193,8 @@ struct SlamOptions {
 
   // False, with the option and what was expected in `error`, when a value is out of range.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<SlamOptions>& Rows();
 };
 
 }  // namespace ceres_ed

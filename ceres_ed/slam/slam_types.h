@@ -4,7 +4,9 @@
 
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/util/named_values.h>
 
+#include <array>
 #include <string>
 
 namespace ceres_ed {
@@ -35,7 +37,13 @@ enum class FrameStatus {
   kSkipped,
 };
 
-std::string FrameStatusName(FrameStatus status);
+constexpr std::array<NamedValue<FrameStatus>, 5> NamesOf(FrameStatus) {
+  return {{{"tracked", FrameStatus::kTracked},
+           {"initialized", FrameStatus::kInitialized},
+           {"relocalized", FrameStatus::kRelocalized},
+           {"lost", FrameStatus::kLost},
+           {"skipped", FrameStatus::kSkipped}}};
+}
 
 // Lengths are in map units.
 struct BatchComparison {

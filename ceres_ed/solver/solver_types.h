@@ -3,7 +3,10 @@
 #define CERES_ED_SOLVER_SOLVER_TYPES_H_
 
 #include <ceres_ed/problem/problem_types.h>
+#include <ceres_ed/util/named_values.h>
+#include <ceres_ed/util/options_fwd.h>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -18,6 +21,10 @@ enum class LinearSolver {
   // less time.
   kBlock,
 };
+
+constexpr std::array<NamedValue<LinearSolver>, 2> NamesOf(LinearSolver) {
+  return {{{"ceres", LinearSolver::kCeres}, {"block", LinearSolver::kBlock}}};
+}
 
 // Limits and tolerances of one solve; the defaults converge a problem in normalised units.
 struct SolverOptions {
@@ -42,12 +49,19 @@ struct SolverOptions {
 
   // False, with the option and what was expected in `error`, when a value is out of range.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<SolverOptions>& Rows();
 };
 
 enum class SolveStatus { kFailed, kMaxIterations, kTimeLimit, kInterrupted, kConverged };
 
-// The contract's name of a status: converged, max_iterations, time_limit, interrupted, failed.
-std::string SolveStatusName(SolveStatus status);
+constexpr std::array<NamedValue<SolveStatus>, 5> NamesOf(SolveStatus) {
+  return {{{"failed", SolveStatus::kFailed},
+           {"max_iterations", SolveStatus::kMaxIterations},
+           {"time_limit", SolveStatus::kTimeLimit},
+           {"interrupted", SolveStatus::kInterrupted},
+           {"converged", SolveStatus::kConverged}}};
+}
 
 // What one level did.
 struct LevelSummary {
@@ -86,6 +100,12 @@ enum class SolveMode {
   kMarginal,
 };
 
+constexpr std::array<NamedValue<SolveMode>, 3> NamesOf(SolveMode) {
+  return {{{"batch", SolveMode::kBatch},
+           {"two_level", SolveMode::kTwoLevel},
+           {"marginal", SolveMode::kMarginal}}};
+}
+
 // Which strategy, and how it treats the seam.
 struct StrategyOptions {
   SolveMode mode = SolveMode::kBatch;
@@ -103,6 +123,8 @@ struct StrategyOptions {
   int marginal_reach = -1;
 
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<StrategyOptions>& Rows();
 };
 
 }  // namespace ceres_ed

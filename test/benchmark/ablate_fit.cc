@@ -119,7 +119,7 @@ Status Report(const FitResult& fit, double seconds) {
   return WriteReport(FLAGS_report,
                      {{"program", "ablate_fit"},
                       {"version", kVersion},
-                      {"status", SolveStatusName(fit.status)},
+                      {"status", NameOf(fit.status)},
                       {"nodes", {{"total", fit.warp.graph.num_nodes()}}},
                       {"inliers", fit.matches.inliers},
                       {"time_s", {{"total", seconds}}}});

@@ -44,13 +44,26 @@ TEST_P(EveryProgram, ShowsHelpOfOneScreen) {
     EXPECT_THAT(result.out, StartsWith("Usage: " + GetParam() + " "));
     EXPECT_THAT(result.out, HasSubstr("\nExample: " + GetParam() + " "));
     const std::vector<std::string> lines = SplitLines(result.out);
-    EXPECT_LE(lines.size(), 45u) << result.out;
+    EXPECT_LE(lines.size(), 50u) << result.out;
     for (const std::string& line : lines) EXPECT_LE(line.size(), 100u) << line;
   }
 }
 
+TEST_P(EveryProgram, ShowsAllFlagsInNoMoreThanAHundredColumns) {
+  const ProgramResult result = Run({"--help=all"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.out, StartsWith("Usage: " + GetParam() + " "));
+  for (const std::string& line : SplitLines(result.out)) EXPECT_LE(line.size(), 100u) << line;
+}
+
+TEST_P(EveryProgram, SuggestsAFlagForAMisspeltOne) {
+  const ProgramResult result = Run({"--hepl"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, GetParam() + ": unknown flag --hepl, did you mean --help? (see --help)\n");
+}
+
 TEST_P(EveryProgram, HidesTheFlagsOfTheLibraries) {
-  const std::string help = Run({"--help"}).out;
+  const std::string help = Run({"--help=all"}).out;
   for (const char* flag : {"--flagfile", "--helpfull", "--logtostderr", "--minloglevel", "--v "}) {
     EXPECT_THAT(help, Not(HasSubstr(flag)));
   }

@@ -137,13 +137,18 @@ TEST_F(EdSimulateTest, RefusesBadFlagsInOneLine) {
   ExpectRefused(Simulate("heart", "x", {"--frames=-2"}), 1, "--frames=-2, expected 1 or more");
   ExpectRefused(Simulate("heart", "x", {"--frames=0"}), 1, "--frames=0, expected 1 or more");
   ExpectRefused(Simulate("heart", "x", {"--frames=two"}), 1, "--frames=two");
-  ExpectRefused(Simulate("heart", "x", {"--noise=-1"}), 1, "noise is -1");
-  ExpectRefused(Simulate("heart", "x", {"--noise=inf"}), 1, "noise is inf");
+  ExpectRefused(
+      Simulate("heart", "x", {"--noise=-1"}), 1, "--noise=-1, expected a finite number >= 0");
+  ExpectRefused(Simulate("heart", "x", {"--noise=inf"}), 1, "--noise=inf, expected a finite");
   ExpectRefused(Simulate("heart", "x", {"--nodes_hint=900"}), 1, "nodes_hint is 900");
-  ExpectRefused(Simulate("strip", "x", {"--nodes_hint=5"}), 1, "nodes_hint is 5");
+  ExpectRefused(Simulate("strip", "x", {"--nodes_hint=5"}),
+                1,
+                "--nodes_hint=5, expected a whole number from 300 to 1000000");
   ExpectRefused(Simulate("strip", "x", {"--nodes_hint=9000", "--frames=3"}), 1, "frames is 3");
   ExpectRefused(Simulate("strip", "x", {"--vertices=900"}), 1, "vertices is 900");
-  ExpectRefused(Simulate("heart", "x", {"--width=0"}), 1, "0 x 48");
+  ExpectRefused(Simulate("heart", "x", {"--width=0"}),
+                1,
+                "--width=0, expected a whole number from 16 to 8192");
   ExpectRefused(RunProgramFile(AppPath("ed_simulate"), {"heart"}), 1, "--output is required");
   EXPECT_FALSE(fs::exists(dir_ / "x"));
 }

@@ -30,14 +30,14 @@ TEST_F(EdSlamBadInputTest, RefusesFlagsThatMakeNoSense) {
   const ProgramResult bare = RunProgramFile(AppPath("ed_slam"), {Sequence()});
   ExpectRefused(bare, 1, "flag --output is required");
   ExpectRefused(
-      Run("out", {"--mode=fast"}), 1, "--mode=fast, expected two_level or batch or marginal");
+      Run("out", {"--mode=fast"}), 1, "--mode=fast, expected batch or two_level or marginal");
   ExpectRefused(Run("out", {"--level2=never"}), 1, "--level2=never, expected full or lazy");
   ExpectRefused(
       Run("out", {"--camera=free"}), 1, "--camera=free, expected estimate or fixed or given");
   for (const char* flag : {"--rings=-1",
                            "--step=0",
                            "--first=-2",
-                           "--threads=0",
+                           "--threads=-1",
                            "--w_reg=-1",
                            "--w_data=inf",
                            "--node_spacing=-0.1",

@@ -86,7 +86,7 @@ TEST(LossType, HasANameThatIsReadBack) {
                               LossType::kTukey,
                               LossType::kWelsch,
                               LossType::kGemanMcClure}) {
-    const StatusOr<LossType> read = ParseLossType(LossTypeName(type));
+    const StatusOr<LossType> read = ParseLossType(NameOf(type));
     ASSERT_TRUE(read.ok());
     EXPECT_EQ(*read, type);
   }
@@ -106,7 +106,7 @@ TEST(MakeLoss, HasTheFormOfItsName) {
   for (const auto& [type, in_squared_widths] : expected) {
     double rho[3];
     MakeLoss({type, kWidth})->Evaluate(kS, rho);
-    EXPECT_NEAR(rho[0], in_squared_widths * kWidth * kWidth, 1e-15) << LossTypeName(type);
+    EXPECT_NEAR(rho[0], in_squared_widths * kWidth * kWidth, 1e-15) << NameOf(type);
   }
 }
 

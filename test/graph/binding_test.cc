@@ -252,7 +252,8 @@ TEST(BindCloudToGraph, RefusesAGraphWithoutNodesAndBadOptions) {
   BindingOptions options;
   options.neighbors = 9;
   const auto bad = BindCloudToGraph(MakeGridMesh(2, 2), graph, options);
-  EXPECT_THAT(bad.status().message(), HasSubstr("neighbors is 9, expected 1 to 8"));
+  EXPECT_THAT(bad.status().message(),
+              HasSubstr("neighbors is 9, expected a whole number from 1 to 8"));
 }
 
 }  // namespace

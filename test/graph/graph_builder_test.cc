@@ -225,7 +225,7 @@ TEST(GraphOptions, SayWhichValueIsOutOfRange) {
   EXPECT_THAT(error(&GraphOptions::edges_per_node, 0), HasSubstr("edges_per_node is 0"));
   EXPECT_THAT(error(&GraphOptions::min_component_points, 0), HasSubstr("min_component_points"));
   EXPECT_THAT(error(&GraphOptions::edges_per_joint, 0), HasSubstr("edges_per_joint is 0"));
-  EXPECT_THAT(error(&GraphOptions::num_threads, 0), HasSubstr("num_threads is 0"));
+  EXPECT_THAT(error(&GraphOptions::num_threads, 0), HasSubstr("threads is 0"));
   std::string text;
   EXPECT_TRUE(GraphOptions().IsValid(&text)) << text;
 }

@@ -107,22 +107,22 @@ TEST_F(OpenedSequences, OptionsOutOfRangeAreErrors) {
   Make({"0"});
   SequenceOptions options;
   options.first = -1;
-  EXPECT_EQ(OpenError(folder_, options), "first is -1, expected a frame number >= 0");
+  EXPECT_EQ(OpenError(folder_, options), "first is -1, expected a whole number >= 0");
   options.first = 5;
   options.last = 4;
   EXPECT_EQ(OpenError(folder_, options), "last is 4, expected at least first, which is 5");
   options.last = -2;
-  EXPECT_EQ(OpenError(folder_, options), "last is -2, expected a frame number, or -1 for the end");
+  EXPECT_EQ(OpenError(folder_, options), "last is -2, expected a whole number >= -1 (-1 = end)");
   options = {};
   options.step = 0;
-  EXPECT_EQ(OpenError(folder_, options), "step is 0, expected a step >= 1");
+  EXPECT_EQ(OpenError(folder_, options), "step is 0, expected a whole number >= 1");
   options = {};
   options.depth_units_per_metre = -1.0;
   EXPECT_EQ(OpenError(folder_, options),
-            "depth_units_per_metre is -1, expected a number > 0, or 0");
+            "depth_units_per_metre is -1, expected a finite number >= 0 (0 = automatic)");
   options.depth_units_per_metre = std::numeric_limits<double>::infinity();
   EXPECT_EQ(OpenError(folder_, options),
-            "depth_units_per_metre is inf, expected a number > 0, or 0");
+            "depth_units_per_metre is inf, expected a finite number >= 0 (0 = automatic)");
 }
 
 TEST_F(OpenedSequences, TwoFilesOfAFrameAreAnError) {
@@ -183,18 +183,13 @@ TEST_F(OpenedSequences, FormatThatIsNamedIsNotGuessed) {
   EXPECT_THAT(sequence->description(), HasSubstr("native, 1 frame: 0, "));
 }
 
-TEST(SequenceFormatNames, AreReadAndWritten) {
-  for (const SequenceFormat format : {SequenceFormat::kAuto,
-                                      SequenceFormat::kNative,
-                                      SequenceFormat::kTum,
-                                      SequenceFormat::kHamlyn}) {
-    const StatusOr<SequenceFormat> parsed = ParseSequenceFormat(SequenceFormatName(format));
-    ASSERT_TRUE(parsed.ok());
-    EXPECT_EQ(*parsed, format);
+TEST(SequenceFormatNames, AreThoseOfTheTable) {
+  for (const NamedValue<SequenceFormat>& named : NamesOf(SequenceFormat())) {
+    EXPECT_EQ(FindByName<SequenceFormat>(NameOf(named.value)), named.value);
   }
-  EXPECT_EQ(SequenceFormatName(SequenceFormat::kHamlyn), "hamlyn");
-  EXPECT_EQ(ParseSequenceFormat("TUM").status().message(),
-            "the format is 'TUM', expected one of: auto, tum, native, hamlyn");
+  EXPECT_EQ(NameOf(SequenceFormat::kHamlyn), "hamlyn");
+  EXPECT_FALSE(FindByName<SequenceFormat>("TUM").has_value());
+  EXPECT_EQ(ListNames<SequenceFormat>(", "), "auto, tum, native, hamlyn");
 }
 
 }  // namespace

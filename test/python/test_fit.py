@@ -249,10 +249,11 @@ def test_keywords_come_before_options(plane):
 
 @pytest.mark.parametrize("arguments, error, message", [
     ({"mode": "bach"}, ValueError, "mode is 'bach', expected 'batch' or 'two_level'"),
-    ({"nod_spacing": 1}, TypeError, "knows no 'nod_spacing'; its options are mode, rings"),
+    ({"nod_spacing": 1}, TypeError, "knows no 'nod_spacing' .did you mean 'node_spacing'.*; its options are mode, rings"),
     ({"rings": 1.5}, TypeError, None),
-    ({"w_rot": -1.0}, ValueError, "weight"),
-    ({"threads": 0}, ValueError, "num_threads is 0, expected >= 1"),
+    ({"w_rot": -1.0}, ValueError, "w_rot is -1, expected a finite number >= 0"),
+    ({"match_max_deviations": float("nan")}, ValueError, "match_max_deviations is nan"),
+    ({"threads": 0}, ValueError, "threads is 0, expected a whole number >= 1"),
     ({"landmarks": {9999999: (0, 0, 0)}}, ValueError, "names source point 9999999"),
     ({"landmarks": [1, 2]}, TypeError, "landmarks: expected"),
     ({"landmarks": ([1, 2], [[0, 0, 0]])}, ValueError, "2 source points and 1 positions"),

@@ -183,7 +183,7 @@ TEST(FinishOptions, NameWhatIsWrong) {
   EXPECT_TRUE(options.IsValid(&error));
   options.smoothing = 0.0;
   EXPECT_FALSE(options.IsValid(&error));
-  EXPECT_EQ(error, "finish.smoothing is 0, expected a finite number > 0");
+  EXPECT_EQ(error, "smoothing is 0, expected a finite number > 0");
 }
 
 }  // namespace

@@ -48,6 +48,12 @@ double LargestMotion(const std::vector<Eigen::Vector3d>& one,
   return largest;
 }
 
+std::vector<SyntheticSceneKind> AllScenes() {
+  std::vector<SyntheticSceneKind> kinds;
+  for (const auto& named : NamesOf(SyntheticSceneKind())) kinds.push_back(named.value);
+  return kinds;
+}
+
 class EveryScene : public ::testing::TestWithParam<SyntheticSceneKind> {};
 
 TEST_P(EveryScene, HasDepthThatLiesOnTheTruthOfItsFrame) {
@@ -112,8 +118,8 @@ TEST_P(EveryScene, ShowsAnUprightPictureOfTheSurfaceInFront) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes,
                          EveryScene,
-                         ::testing::ValuesIn(AllSyntheticSceneKinds()),
-                         [](const auto& info) { return SyntheticSceneName(info.param); });
+                         ::testing::ValuesIn(AllScenes()),
+                         [](const auto& info) { return NameOf(info.param); });
 
 TEST(Organs, AreSeenInPartByACameraThatMovesSmoothly) {
   for (const auto kind :
@@ -133,7 +139,7 @@ TEST(Organs, AreSeenInPartByACameraThatMovesSmoothly) {
     }
     EXPECT_NEAR(total, 100.0, 5.0);
     const double seen = SeenPoints(sequence, sequence.Render(20, false)).size() / (80.0 * 60.0);
-    EXPECT_GT(seen, 0.4) << SyntheticSceneName(kind);
+    EXPECT_GT(seen, 0.4) << NameOf(kind);
   }
 }
 
@@ -257,7 +263,7 @@ TEST(SyntheticSequence, RefusesOptionsOutOfRange) {
   EXPECT_THAT(error_of([](Options* o) { o->frames = -1; }), HasSubstr("frames is -1"));
   EXPECT_THAT(error_of([](Options* o) { o->nodes_hint = 900; }), HasSubstr("strip only"));
   EXPECT_THAT(error_of([](Options* o) { o->vertices = 499; }), HasSubstr("vertices is 499"));
-  EXPECT_THAT(error_of([](Options* o) { o->width = 15; }), HasSubstr("15 x 480"));
+  EXPECT_THAT(error_of([](Options* o) { o->width = 15; }), HasSubstr("width is 15"));
   EXPECT_THAT(error_of([](Options* o) { o->noise = -1e-3; }), HasSubstr("noise is -0.001"));
   EXPECT_THAT(error_of([](Options* o) { o->noise = NAN; }), HasSubstr("noise is nan"));
   EXPECT_THAT(error_of([](Options* o) { o->period = 1.0; }), HasSubstr("period is 1"));

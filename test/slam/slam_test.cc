@@ -247,11 +247,11 @@ TEST(DeformableSlam, RefusesBadIntrinsicsAndEnergies) {
 }
 
 TEST(FrameStatusName, IsOneWordForEach) {
-  EXPECT_EQ(FrameStatusName(FrameStatus::kTracked), "tracked");
-  EXPECT_EQ(FrameStatusName(FrameStatus::kInitialized), "initialized");
-  EXPECT_EQ(FrameStatusName(FrameStatus::kRelocalized), "relocalized");
-  EXPECT_EQ(FrameStatusName(FrameStatus::kLost), "lost");
-  EXPECT_EQ(FrameStatusName(FrameStatus::kSkipped), "skipped");
+  EXPECT_EQ(NameOf(FrameStatus::kTracked), "tracked");
+  EXPECT_EQ(NameOf(FrameStatus::kInitialized), "initialized");
+  EXPECT_EQ(NameOf(FrameStatus::kRelocalized), "relocalized");
+  EXPECT_EQ(NameOf(FrameStatus::kLost), "lost");
+  EXPECT_EQ(NameOf(FrameStatus::kSkipped), "skipped");
 }
 
 TEST(WithSharedSettings, HandsThreadsAndCameraToEveryStage) {
@@ -271,19 +271,19 @@ TEST(SlamOptions, NameWhatIsOutOfRange) {
   SlamOptions options;
   options.levels.strategy.rings = -1;
   EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
-            "rings is -1, expected >= 0");
+            "rings is -1, expected a whole number >= 0");
   options = SlamOptions();
   options.levels.rotation_weight = -1.0;
   EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
-            "rotation_weight is -1, expected finite and >= 0");
+            "w_rot is -1, expected a finite number >= 0");
   options = SlamOptions();
   options.levels.prior_translation = 0.0;
   EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
-            "prior_translation is 0, expected finite and > 0");
+            "prior_translation is 0, expected a finite number > 0");
   options = SlamOptions();
   options.neighbors = 9;
   EXPECT_EQ(DeformableSlam::Create(KidneySequence().camera, options, registry).status().message(),
-            "neighbors is 9, expected 1 to 8");
+            "neighbors is 9, expected a whole number from 1 to 8");
   PinholeCamera blind = KidneySequence().camera;
   blind.fx = 0.0;
   EXPECT_EQ(DeformableSlam::Create(blind, SlamOptions(), registry).status().message(),

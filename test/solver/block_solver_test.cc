@@ -65,7 +65,7 @@ TEST(BlockSolver, ReachesTheMinimumOfCeres) {
           energies.push_back(summary.final_energy);
         }
         EXPECT_NEAR(energies[1], energies[0], 1e-9 * energies[0])
-            << LossTypeName(type) << (has_camera ? " with" : " without") << " camera";
+            << NameOf(type) << (has_camera ? " with" : " without") << " camera";
       }
     }
   }

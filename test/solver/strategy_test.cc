@@ -43,36 +43,36 @@ TEST(SolverOptions, NameTheOptionThatIsOutOfRange) {
     return error;
   };
   EXPECT_EQ(error_of([](SolverOptions* o) { o->max_iterations = -1; }),
-            "max_iterations is -1, expected >= 0");
+            "max_iterations is -1, expected a whole number >= 0");
   EXPECT_EQ(error_of([](SolverOptions* o) { o->function_tolerance = -0.5; }),
-            "function_tolerance is -0.5, expected >= 0");
+            "function_tolerance is -0.5, expected a finite number >= 0");
   EXPECT_EQ(error_of([](SolverOptions* o) { o->gradient_tolerance = -0.5; }),
-            "gradient_tolerance is -0.5, expected >= 0");
+            "gradient_tolerance is -0.5, expected a finite number >= 0");
   EXPECT_EQ(error_of([](SolverOptions* o) { o->parameter_tolerance = -0.5; }),
-            "parameter_tolerance is -0.5, expected >= 0");
+            "parameter_tolerance is -0.5, expected a finite number >= 0");
   EXPECT_EQ(error_of([](SolverOptions* o) { o->initial_trust_region_radius = 0.0; }),
-            "initial_trust_region_radius is 0, expected > 0");
+            "initial_trust_region_radius is 0, expected a finite number > 0");
   EXPECT_EQ(error_of([](SolverOptions* o) { o->num_threads = 0; }),
-            "num_threads is 0, expected >= 1");
+            "num_threads is 0, expected a whole number >= 1");
   EXPECT_EQ(error_of([](SolverOptions* o) { o->time_limit_s = 0.0; }),
-            "time_limit_s is 0, expected > 0 seconds");
+            "time_limit_s is 0, expected a number > 0");
   StrategyOptions strategy;
   strategy.rings = -2;
   std::string error;
   EXPECT_FALSE(strategy.IsValid(&error));
-  EXPECT_EQ(error, "rings is -2, expected >= 0");
+  EXPECT_EQ(error, "rings is -2, expected a whole number >= 0");
   strategy.rings = 0;
   strategy.relinearize_above = -0.5;
   EXPECT_FALSE(strategy.IsValid(&error));
-  EXPECT_EQ(error, "relinearize_above is -0.5, expected >= 0");
+  EXPECT_EQ(error, "relinearize_above is -0.5, expected a finite number >= 0");
 }
 
 TEST(SolveStatusName, IsThatOfTheReport) {
-  EXPECT_EQ(SolveStatusName(SolveStatus::kConverged), "converged");
-  EXPECT_EQ(SolveStatusName(SolveStatus::kMaxIterations), "max_iterations");
-  EXPECT_EQ(SolveStatusName(SolveStatus::kTimeLimit), "time_limit");
-  EXPECT_EQ(SolveStatusName(SolveStatus::kInterrupted), "interrupted");
-  EXPECT_EQ(SolveStatusName(SolveStatus::kFailed), "failed");
+  EXPECT_EQ(NameOf(SolveStatus::kConverged), "converged");
+  EXPECT_EQ(NameOf(SolveStatus::kMaxIterations), "max_iterations");
+  EXPECT_EQ(NameOf(SolveStatus::kTimeLimit), "time_limit");
+  EXPECT_EQ(NameOf(SolveStatus::kInterrupted), "interrupted");
+  EXPECT_EQ(NameOf(SolveStatus::kFailed), "failed");
 }
 
 TEST(SolveSummary, StartsOutFailed) {

@@ -53,7 +53,7 @@ int main(int argc, char** argv) {  // sequence FOLDER MAP.ply
     const FrameReport report = (*slam)->Process(frame);
     std::printf("frame %d: %s, %d nodes, %d of %d points seen\n",
                 report.number,
-                FrameStatusName(report.status).c_str(),
+                NameOf(report.status).c_str(),
                 report.nodes,
                 report.points,
                 report.map_points);

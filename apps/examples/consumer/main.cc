@@ -50,7 +50,7 @@ int main() {
   const Eigen::Vector3d warped = WarpPoint(graph, state, skinning[0], points[0]);
   std::printf("ceres_ed %s: %s, distance to the landmark %.1e\n",
               kVersion,
-              SolveStatusName(summary.status).c_str(),
+              NameOf(summary.status).c_str(),
               (warped - landmark.target).norm());
   return summary.IsUsable() && (warped - landmark.target).norm() < 1e-3 ? 0 : 1;
 }

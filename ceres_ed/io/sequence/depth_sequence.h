@@ -28,8 +28,11 @@
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/io/sequence/sequence_listing.h>
+#include <ceres_ed/util/named_values.h>
+#include <ceres_ed/util/options_fwd.h>
 #include <ceres_ed/util/status.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,11 +42,12 @@ namespace ceres_ed {
 // The layout of a folder.
 enum class SequenceFormat { kAuto, kNative, kTum, kHamlyn };
 
-// Returns "auto", "native", "tum" or "hamlyn".
-std::string SequenceFormatName(SequenceFormat format);
-
-// Returns the format of that name, or an error that tells the names there are.
-StatusOr<SequenceFormat> ParseSequenceFormat(const std::string& name);
+constexpr std::array<NamedValue<SequenceFormat>, 4> NamesOf(SequenceFormat) {
+  return {{{"auto", SequenceFormat::kAuto},
+           {"tum", SequenceFormat::kTum},
+           {"native", SequenceFormat::kNative},
+           {"hamlyn", SequenceFormat::kHamlyn}}};
+}
 
 // Which frames to read, and how.
 struct SequenceOptions {
@@ -64,6 +68,8 @@ struct SequenceOptions {
 
   // False, with the value and what was expected in `error`, unless every option is in its range.
   bool IsValid(std::string* error) const;
+  // The options as data: name, range and text of each.
+  static const OptionTable<SequenceOptions>& Rows();
 };
 
 // A frame in memory.

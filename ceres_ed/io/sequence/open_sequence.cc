@@ -2,9 +2,9 @@
 
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_format.h>
+#include <ceres_ed/util/options.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <sstream>
@@ -27,7 +27,7 @@ Status UnknownLayout(const std::string& directory, const std::string& problem) {
   std::string message = directory + ": " + problem + ", expected";
   const char* separator = " ";
   for (const SequenceFormatReader& reader : SequenceFormats()) {
-    message += separator + std::string(reader.needs) + " (" + reader.name + ")";
+    message += separator + std::string(reader.needs) + " (" + NameOf(reader.format) + ")";
     separator = ", or ";
   }
   return Status::Error(message);
@@ -138,7 +138,7 @@ std::string Describe(const SequenceFormatReader& reader,
                      bool is_guessed,
                      const SequenceListing& listing) {
   std::ostringstream text;
-  text << reader.name;
+  text << NameOf(reader.format);
   if (is_guessed) text << " (guessed: there is " << reader.mark << ")";
   const std::size_t num_frames = listing.entries.size();
   text << ", " << num_frames << (num_frames == 1 ? " frame: " : " frames: ")
@@ -153,40 +153,33 @@ std::string Describe(const SequenceFormatReader& reader,
 
 }  // namespace
 
-std::string SequenceFormatName(SequenceFormat format) {
-  if (format == SequenceFormat::kAuto) return "auto";
-  const SequenceFormatReader* reader = FindFormat(format);
-  CHECK(reader != nullptr) << "format " << static_cast<int>(format) << " is not in the table";
-  return reader->name;
-}
-
-StatusOr<SequenceFormat> ParseSequenceFormat(const std::string& name) {
-  std::string names = "auto";
-  if (name == names) return SequenceFormat::kAuto;
-  for (const SequenceFormatReader& reader : SequenceFormats()) {
-    if (name == reader.name) return reader.format;
-    names += std::string(", ") + reader.name;
-  }
-  return Status::Error("the format is '" + name + "', expected one of: " + names);
+const OptionTable<SequenceOptions>& SequenceOptions::Rows() {
+  using O = SequenceOptions;
+  static const OptionTable<O> rows({
+      Row(&O::format, "format", "The layout of the sequence.").Main(),
+      Row(&O::first, "first", "The number of the first frame.").In(AtLeast(0)).Main(),
+      Row(&O::last, "last", "The number of the last frame.")
+          .In(AtLeast(-1))
+          .Special(-1, "end")
+          .OnResume(ResumeRule::kFree)
+          .Main(),
+      Row(&O::step, "step", "Every n-th frame is taken.").In(AtLeast(1)).Main(),
+      Row(&O::color, "color", "Read the colour pictures where there are some."),
+      Row(&O::depth_units_per_metre,
+          "depth_units_per_metre",
+          "The depth in the pictures divided by this is in metres.")
+          .In(AtLeast(0))
+          .Special(0, "automatic"),
+  });
+  return rows;
 }
 
 bool SequenceOptions::IsValid(std::string* error) const {
-  const auto refuse = [error](const char* name, double value, const std::string& expected) {
-    std::ostringstream message;
-    message << name << " is " << value << ", expected " << expected;
-    *error = message.str();
-    return false;
-  };
-  if (first < 0) return refuse("first", first, "a frame number >= 0");
-  if (last < -1) return refuse("last", last, "a frame number, or -1 for the end");
-  if (last >= 0 && last < first) {
-    return refuse("last", last, "at least first, which is " + std::to_string(first));
-  }
-  if (step < 1) return refuse("step", step, "a step >= 1");
-  if (!std::isfinite(depth_units_per_metre) || depth_units_per_metre < 0.0) {
-    return refuse("depth_units_per_metre", depth_units_per_metre, "a number > 0, or 0");
-  }
-  return true;
+  if (!Rows().Check(*this, error)) return false;
+  if (last < 0 || last >= first) return true;
+  *error = "last is " + std::to_string(last) + ", expected at least first, which is " +
+           std::to_string(first);
+  return false;
 }
 
 StatusOr<std::unique_ptr<DepthSequence>> OpenSequence(const std::string& directory,

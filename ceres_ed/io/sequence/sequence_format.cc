@@ -5,14 +5,12 @@ namespace ceres_ed {
 const std::vector<SequenceFormatReader>& SequenceFormats() {
   // A TUM folder may have a camera.txt, too: it is asked for first.
   static const std::vector<SequenceFormatReader> formats = {
-      {SequenceFormat::kTum, "tum", "depth.txt", "depth.txt", ListTumSequence},
+      {SequenceFormat::kTum, "depth.txt", "depth.txt", ListTumSequence},
       {SequenceFormat::kNative,
-       "native",
        "camera.txt",
        "camera.txt and depth/NNNNNN.png",
        ListNativeSequence},
       {SequenceFormat::kHamlyn,
-       "hamlyn",
        "intrinsics.txt",
        "intrinsics.txt and depth/ or depth01/",
        ListHamlynSequence},

@@ -15,8 +15,6 @@ namespace ceres_ed {
 // A layout.
 struct SequenceFormatReader {
   SequenceFormat format = SequenceFormat::kAuto;
-  // Of flags and messages.
-  const char* name = "";
   // The file that gives the layout away when it is to be guessed.
   const char* mark = "";
   // What the layout can't do without, for the message when none is recognised.

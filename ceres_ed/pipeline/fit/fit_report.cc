@@ -2,7 +2,6 @@
 
 #include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 #include <ceres_ed/pipeline/energies.h>
-#include <ceres_ed/pipeline/mode_names.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/version.h>
 
@@ -145,8 +144,8 @@ ordered_json FitReport(const FitRun& run) {
   return {
       {"program", "ed_fit"},
       {"version", kVersion},
-      {"mode", SolveModeName(run.settings->options.strategy.mode)},
-      {"status", SolveStatusName(result.status)},
+      {"mode", NameOf(run.settings->options.strategy.mode)},
+      {"status", NameOf(result.status)},
       {"message", result.message},
       {"source", CloudReport(run.files->source)},
       {"target", CloudReport(run.files->target)},

@@ -28,7 +28,7 @@ int NumberOf(const FrameRecord& record) {
 FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& slam) {
   FrameRecord record;
   record.number = report.number;
-  record.status = FrameStatusName(report.status);
+  record.status = NameOf(report.status);
   const FrameTimes& times = report.times;
   record["t_associate"] = times.associate;
   record["t_camera"] = times.camera;
@@ -63,9 +63,7 @@ FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& sla
   return record;
 }
 
-bool Is(const FrameRecord& record, FrameStatus status) {
-  return record.status == FrameStatusName(status);
-}
+bool Is(const FrameRecord& record, FrameStatus status) { return record.status == NameOf(status); }
 
 bool HasPose(const FrameRecord& record) {
   return !Is(record, FrameStatus::kLost) && !Is(record, FrameStatus::kSkipped);
@@ -92,7 +90,7 @@ void ExchangeRecords(std::vector<FrameRecord>* records, CheckpointArchive* archi
   if (!archive->saving()) records->assign(statuses.size(), FrameRecord());
   for (std::size_t i = 0; i < statuses.size(); ++i) {
     for (const FrameStatus status : kStatuses) {
-      if (statuses[i] == static_cast<int>(status)) (*records)[i].status = FrameStatusName(status);
+      if (statuses[i] == static_cast<int>(status)) (*records)[i].status = NameOf(status);
     }
   }
   archive->Column("number", records, [](FrameRecord& r) -> int& { return r.number; });

@@ -1,6 +1,5 @@
 #include "ceres_ed/pipeline/slam/slam_report.h"
 
-#include <ceres_ed/pipeline/mode_names.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/pipeline/slam/frame_records.h>
 #include <ceres_ed/slam/map/deformable_map.h>
@@ -93,7 +92,7 @@ ordered_json FramesReport(const std::vector<FrameRecord>& records) {
                                    FrameStatus::kRelocalized,
                                    FrameStatus::kLost,
                                    FrameStatus::kSkipped}) {
-    report[FrameStatusName(status)] = CountFrames(records, status);
+    report[NameOf(status)] = CountFrames(records, status);
   }
   return report;
 }
@@ -122,8 +121,8 @@ ordered_json SlamReport(const SlamRun& run) {
   const DeformableSlam& slam = *run.slam;
   return {{"program", "ed_slam"},
           {"version", kVersion},
-          {"mode", SolveModeName(options.levels.strategy.mode)},
-          {"camera", CameraModeName(options.camera)},
+          {"mode", NameOf(options.levels.strategy.mode)},
+          {"camera", NameOf(options.camera)},
           {"status", run.status},
           {"message", run.message},
           {"sequence", SequenceReport(run)},

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <sstream>
 #include <utility>
 
 #include <Eigen/Core>
@@ -187,27 +186,6 @@ FinishResult Finisher::Run() {
 }
 
 }  // namespace
-
-bool FinishOptions::IsValid(std::string* error) const {
-  std::ostringstream message;
-  if (rounds < 1) {
-    message << "finish.rounds is " << rounds << ", expected >= 1";
-  } else if (steps < 1) {
-    message << "finish.steps is " << steps << ", expected >= 1";
-  } else if (!(smoothing > 0.0 && std::isfinite(smoothing))) {
-    message << "finish.smoothing is " << smoothing << ", expected a finite number > 0";
-  } else if (!(max_smoothing >= 0.0 && std::isfinite(max_smoothing))) {
-    message << "finish.max_smoothing is " << max_smoothing << ", expected a finite number >= 0";
-  } else if (!(fade > 0.0 && std::isfinite(fade))) {
-    message << "finish.fade is " << fade << ", expected a finite number > 0";
-  } else if (!(point_to_point_share >= 0.0 && point_to_point_share <= 1.0)) {
-    message << "finish.point_to_point_share is " << point_to_point_share << ", expected in [0, 1]";
-  } else if (!(loss_width > 0.0)) {
-    message << "finish.loss_width is " << loss_width << ", expected > 0";
-  }
-  *error = message.str();
-  return error->empty();
-}
 
 double FinishNoise(const Surface& source, const Surface& target) {
   const double of_source = EstimateNoise(source.cloud().points, source.topology());

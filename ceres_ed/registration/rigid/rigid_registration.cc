@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <vector>
 
 namespace ceres_ed {
@@ -146,23 +145,6 @@ ScoredPose StartFinder::Search(const RigidAligner& coarse, int* starts_tried) co
 }
 
 }  // namespace
-
-bool RigidOptions::IsValid(std::string* error) const {
-  std::ostringstream message;
-  if (!(max_angle_deg > 0.0 && max_angle_deg <= 180.0)) {
-    message << "max_angle_deg is " << max_angle_deg << ", expected in (0, 180]";
-  } else if (!(score_width > 0.0)) {
-    message << "score_width is " << score_width << ", expected > 0";
-  } else if (!(good_score >= 0.0 && good_score <= 1.0)) {
-    message << "good_score is " << good_score << ", expected in [0, 1]";
-  } else if (!(preference > 0.0 && preference <= 1.0)) {
-    message << "preference is " << preference << ", expected in (0, 1]";
-  } else if (num_threads < 1) {
-    message << "num_threads is " << num_threads << ", expected >= 1";
-  }
-  *error = message.str();
-  return error->empty();
-}
 
 RigidResult AlignRigid(const Surface& source,
                        const Surface& target,

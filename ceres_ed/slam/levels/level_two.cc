@@ -2,7 +2,6 @@
 #include <ceres_ed/graph/node_neighborhood.h>
 #include <ceres_ed/slam/levels/levels.h>
 #include <ceres_ed/slam/levels/window_observations.h>
-#include <ceres_ed/util/option_check.h>
 
 #include <algorithm>
 #include <utility>
@@ -21,16 +20,6 @@ void Add(const LevelReport& wave, LevelReport* all) {
 }
 
 }  // namespace
-
-bool LazyOptions::IsValid(std::string* error) const {
-  const auto require = [error](bool holds, const char* option, double value, const char* expected) {
-    return RequireOption(holds, option, value, expected, error);
-  };
-  return require(tolerance > 0.0, "lazy.tolerance", tolerance, "> 0") &&
-         require(reach >= 1, "lazy.reach", reach, ">= 1") &&
-         require(waves_per_frame >= 1, "lazy.waves_per_frame", waves_per_frame, ">= 1") &&
-         require(max_seeds >= 1, "lazy.max_seeds", max_seeds, ">= 1");
-}
 
 LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
                                 NodePriorSource* priors,

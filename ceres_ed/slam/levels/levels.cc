@@ -1,10 +1,8 @@
 #include "ceres_ed/slam/levels/levels.h"
 
 #include <ceres_ed/slam/levels/window_observations.h>
-#include <ceres_ed/util/option_check.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include <cost_functions/node_parameters.h>
@@ -14,22 +12,6 @@ namespace {
 
 // Steps that are added where the first ones were all refused.
 constexpr int kMoreSteps = 5;
-
-// Observations change with every step, so that more than one on the same is wasted.
-SolverOptions OneStep() {
-  SolverOptions options;
-  options.max_iterations = 1;
-  return options;
-}
-
-// Of the hidden nodes only those that are near Level I are marginalised: a frame's time must not
-// grow with the map.
-StrategyOptions TwoLevels() {
-  StrategyOptions options;
-  options.mode = SolveMode::kTwoLevel;
-  options.marginal_reach = 8;
-  return options;
-}
 
 // The energies of the levels and how they take part.
 std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
@@ -78,25 +60,20 @@ double MotionOf(const double* before, const double* after) {
 
 }  // namespace
 
-LevelsOptions::LevelsOptions() : strategy(TwoLevels()), solver(OneStep()) {}
+// Observations change with every step, so that more than one on the same is wasted.
+SolverOptions LevelsOptions::OneStep() {
+  SolverOptions options;
+  options.max_iterations = 1;
+  return options;
+}
 
-bool LevelsOptions::IsValid(std::string* error) const {
-  const auto require = [error](bool holds, const char* option, double value, const char* expected) {
-    return RequireOption(holds, option, value, expected, error);
-  };
-  const auto weight = [&require](const char* option, double value) {
-    return require(std::isfinite(value) && value >= 0.0, option, value, "finite and >= 0");
-  };
-  const auto spread = [&require](const char* option, double value) {
-    return require(std::isfinite(value) && value > 0.0, option, value, "finite and > 0");
-  };
-  return weight("rotation_weight", rotation_weight) &&
-         weight("regularization_weight", regularization_weight) &&
-         weight("node_prior_weight", node_prior_weight) && weight("plane_weight", plane_weight) &&
-         weight("feature_weight", feature_weight) &&
-         spread("prior_rotation_deg", prior_rotation_deg) &&
-         spread("prior_translation", prior_translation) && strategy.IsValid(error) &&
-         lazy.IsValid(error) && solver.IsValid(error);
+// Of the hidden nodes only those that are near Level I are marginalised: a frame's time must not
+// grow with the map.
+StrategyOptions LevelsOptions::TwoLevels() {
+  StrategyOptions options;
+  options.mode = SolveMode::kTwoLevel;
+  options.marginal_reach = 8;
+  return options;
 }
 
 StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
