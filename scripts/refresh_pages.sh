@@ -1,20 +1,29 @@
 #!/usr/bin/env bash
-# Brings pages up to date: the catalogue of energies, source files that are shown in full, and the short tables
-# of the README.
+# Brings pages up to date: the catalogue of energies, the tables of options, source files that are shown in full,
+# and the short tables of the README.
 # refresh_pages.sh [BUILD FOLDER (build/release)]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build=${1:-build/release}
-page=ceres_ed/energy/README.md
-cmake --build "$build" --target ed_list_energies
-catalogue=$(mktemp)
-trap 'rm -f "$catalogue"' EXIT
-"$build/apps/ed_list_energies" --format=markdown >"$catalogue"
-sed -i -e '/^<!-- ed_list_energies: begin -->$/,/^<!-- ed_list_energies: end -->$/{
-  /begin -->$/!{/end -->$/!d}
-  /begin -->$/r '"$catalogue"'
-}' "$page"
+cmake --build "$build" --target ed_list_energies ed_fit ed_slam
+text=$(mktemp)
+trap 'rm -f "$text"' EXIT
+
+# refresh PAGE MARK COMMAND...: puts what the command prints between the marks of the page.
+refresh() {
+  local page=$1 mark=$2
+  "${@:3}" >"$text"
+  sed -i -e '/^<!-- '"$mark"': begin -->$/,/^<!-- '"$mark"': end -->$/{
+    /begin -->$/!{/end -->$/!d}
+    /begin -->$/r '"$text"'
+  }' "$page"
+  echo "refreshed $page"
+}
+
+refresh ceres_ed/energy/README.md ed_list_energies "$build/apps/ed_list_energies" --format=markdown
+refresh ceres_ed/registration/README.md 'ed_fit options' "$build/apps/ed_fit" --help=markdown
+refresh ceres_ed/slam/README.md 'ed_slam options' "$build/apps/ed_slam" --help=markdown
 python3 test/docs/check_code.py --update
 scripts/readme_tables.py
-echo "refreshed $page, README.md and the pages that show files"
+echo "refreshed README.md and the pages that show files"

@@ -137,7 +137,7 @@ TEST_F(EdSlamBadInputTest, WarnsOfDepthInTheWrongUnit) {
   for (const auto& [units, word] : {std::pair<const char*, const char*>{"50000000", "1 mm"},
                                     std::pair<const char*, const char*>{"40", "100 m"}}) {
     WriteBytes(Sequence() + "/camera.txt", std::string("90 90 47.5 35.5 96 72 ") + units + "\n");
-    const ProgramResult result = Run("out");
+    const ProgramResult result = Run("out", {"--overwrite"});
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("warning: "));
     EXPECT_THAT(result.err, HasSubstr(word));
@@ -152,7 +152,7 @@ TEST_F(EdSlamBadInputTest, GivenCamerasNeedPoses) {
   EXPECT_THAT(some.err, HasSubstr("frame 0: has no pose: frame skipped"));
   EXPECT_THAT(Statuses(), ElementsAre("skipped", "initialized", "skipped", "skipped"));
   std::filesystem::remove(Sequence() + "/poses.txt");
-  ExpectRefused(Run("out", {"--camera=given"}), 2, "has no poses, expected some");
+  ExpectRefused(Run("out", {"--camera=given", "--overwrite"}), 2, "has no poses, expected some");
 }
 
 }  // namespace

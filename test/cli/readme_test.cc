@@ -9,6 +9,7 @@
 #include <regex>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gmock/gmock.h>
@@ -93,6 +94,18 @@ TEST(EnergyPage, HasTheCatalogueOfTheRegistry) {
       << "scripts/refresh_pages.sh brings it up to date";
 }
 
+TEST(OptionsPages, HaveTheFlagsOfThePrograms) {
+  for (const auto& [page, program] : {std::pair("ceres_ed/registration/README.md", "ed_fit"),
+                                      std::pair("ceres_ed/slam/README.md", "ed_slam")}) {
+    const ProgramResult table = RunProgramFile(AppPath(program), {"--help=markdown"});
+    ASSERT_EQ(table.exit_code, 0);
+    const std::string mark = std::string("<!-- ") + program + " options: ";
+    const std::string expected = mark + "begin -->\n" + table.out + mark + "end -->\n";
+    EXPECT_NE(ReadSourceFile(page).find(expected), std::string::npos)
+        << page << ": scripts/refresh_pages.sh brings it up to date";
+  }
+}
+
 TEST(Readme, LinksOnlyToWhatIsThere) {
   const std::string readme = ReadSourceFile("README.md");
   const std::vector<std::string> links = FindAll(readme, "\\]\\(([^)]+)\\)");
@@ -115,7 +128,7 @@ int CheckFlags(const std::string& page) {
   int num_flags = 0;
   for (std::sregex_iterator it(text.begin(), text.end(), command), end; it != end; ++it) {
     const std::string program = (*it)[1];
-    const ProgramResult help = RunProgramFile(AppPath(program), {"--help"});
+    const ProgramResult help = RunProgramFile(AppPath(program), {"--help=all"});
     EXPECT_EQ(help.exit_code, 0) << page << ": " << program;
     const std::vector<std::string> known = FindAll(help.out, "\n  --([a-z_]+)");
     for (const std::string& flag : FindAll((*it)[2], "--([a-z_]+)")) {

@@ -1,5 +1,6 @@
 """The stubs say what the module has: every public name, and every parameter of it."""
 import ast
+import importlib.util
 import inspect
 import os
 import re
@@ -13,6 +14,7 @@ import ceres_ed
 from ceres_ed import _core
 
 STUB = Path(_core.__file__).parent / "_core.pyi"
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "refresh_stubs.py"
 TREE = ast.parse(STUB.read_text())
 
 # Python's own, and what every class has.
@@ -92,6 +94,14 @@ def test_every_function_is_there_with_its_parameters():
     assert set(stubs) == set(functions)
     for name, function in functions.items():
         check_parameters(stubs[name][0], function, options_of(name))
+
+
+def test_options_are_those_of_the_module():
+    spec = importlib.util.spec_from_file_location("refresh_stubs", SCRIPT)
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    text = STUB.read_text()
+    assert script.refreshed(text, ceres_ed) == text, "scripts/refresh_stubs.py brings it up to date"
 
 
 CLASSES = sorted(name for name, value in vars(_core).items() if inspect.isclass(value))

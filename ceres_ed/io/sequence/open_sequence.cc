@@ -165,6 +165,7 @@ const OptionTable<SequenceOptions>& SequenceOptions::Rows() {
           .Main(),
       Row(&O::step, "step", "Every n-th frame is taken.").In(AtLeast(1)).Main(),
       Row(&O::color, "color", "Read the colour pictures where there are some."),
+      Row(&O::masks, "masks", "Leave out the pixels that the masks leave out."),
       Row(&O::depth_units_per_metre,
           "depth_units_per_metre",
           "The depth in the pictures divided by this is in metres.")

@@ -104,22 +104,23 @@ class EnergyInfo:
 
 class GraphOptions:
     names: ClassVar[tuple[str, ...]]
+    sampling: Sampling
+    distance: Distance
     node_spacing: float
     target_nodes: int
     auto_spacing: float
     neighbors: int
-    sampling: Sampling
-    distance: Distance
     edges: EdgeRule
     edges_per_node: int
     min_component_points: int
     join_pieces: bool
+    edges_per_joint: int
     threads: int
     def __init__(
-            self, *, node_spacing: float = ..., target_nodes: int = ..., auto_spacing: float = ...,
-            neighbors: int = ..., sampling: Sampling = ..., distance: Distance = ...,
+            self, *, sampling: Sampling = ..., distance: Distance = ..., node_spacing: float = ...,
+            target_nodes: int = ..., auto_spacing: float = ..., neighbors: int = ...,
             edges: EdgeRule = ..., edges_per_node: int = ..., min_component_points: int = ...,
-            join_pieces: bool = ..., threads: int = ...) -> None: ...
+            join_pieces: bool = ..., edges_per_joint: int = ..., threads: int = ...) -> None: ...
     def __copy__(self) -> GraphOptions: ...
     def copy(self) -> GraphOptions: ...
 
@@ -130,11 +131,11 @@ class Graph:
             edge_weights: Optional[ArrayLike] = None) -> None: ...
     @staticmethod
     def build(
-            surface: Surface, options: Optional[GraphOptions] = None, *, node_spacing: float = ...,
-            target_nodes: int = ..., auto_spacing: float = ..., neighbors: int = ...,
-            sampling: Sampling = ..., distance: Distance = ..., edges: EdgeRule = ...,
+            surface: Surface, options: Optional[GraphOptions] = None, *, sampling: Sampling = ...,
+            distance: Distance = ..., node_spacing: float = ..., target_nodes: int = ...,
+            auto_spacing: float = ..., neighbors: int = ..., edges: EdgeRule = ...,
             edges_per_node: int = ..., min_component_points: int = ..., join_pieces: bool = ...,
-            threads: int = ...) -> Graph: ...
+            edges_per_joint: int = ..., threads: int = ...) -> Graph: ...
     @property
     def nodes(self) -> NDArray[np.float64]: ...
     @property
@@ -189,28 +190,25 @@ class FitOptions:
     rings: int
     boundary: Boundary
     linear_solver: LinearSolver
-    rigid_first: bool
-    rigid_scale: bool
+    relinearize_above: float
+    marginal_reach: int
+    graph_sampling: Sampling
+    graph_distance: Distance
     node_spacing: float
+    target_nodes: int
+    graph_auto_spacing: float
     neighbors: int
+    graph_edges: EdgeRule
+    graph_edges_per_node: int
+    graph_min_component_points: int
+    graph_join_pieces: bool
+    graph_edges_per_joint: int
     w_rot: float
     w_reg: float
     w_data: float
-    loss: Loss
-    max_distance: float
-    max_angle_deg: float
-    max_samples: int
-    finish: bool
-    covariance: bool
-    threads: int
-    time_limit_s: float
     w_landmark: float
     w_fixed: float
     point_to_point_share: float
-    target_nodes: int
-    loss_width: float
-    denoise: bool
-    unfold: bool
     levels: int
     initial_stiffness: float
     final_stiffness: float
@@ -220,20 +218,60 @@ class FitOptions:
     max_rounds: int
     tolerance: float
     solver_iterations: int
+    loss: Loss
+    loss_width: float
+    careful_loss_width: float
+    careful_angle_deg: float
+    max_distance: float
+    max_angle_deg: float
+    match_max_deviations: float
+    match_reject_borders: bool
+    match_symmetric_normals: bool
+    max_samples: int
+    denoise: bool
+    rigid_first: bool
+    rigid_scale: bool
+    rigid_max_angle_deg: float
+    rigid_score_width: float
+    rigid_good_score: float
+    rigid_preference: float
+    finish: bool
+    finish_rounds: int
+    finish_steps: int
+    finish_smoothing: float
+    finish_max_smoothing: float
+    finish_fade: float
+    finish_point_to_point_share: float
+    finish_loss_width: float
+    unfold: bool
+    covariance: bool
+    threads: int
+    time_limit_s: float
     def __init__(
             self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
-            linear_solver: LinearSolver = ..., rigid_first: bool = ..., rigid_scale: bool = ...,
-            node_spacing: float = ..., neighbors: int = ..., w_rot: float = ...,
-            w_reg: float = ..., w_data: float = ..., loss: Loss = ..., max_distance: float = ...,
-            max_angle_deg: float = ..., max_samples: int = ..., finish: bool = ...,
-            covariance: bool = ..., threads: int = ..., time_limit_s: float = ...,
-            w_landmark: float = ...,
-            w_fixed: float = ..., point_to_point_share: float = ..., target_nodes: int = ...,
-            loss_width: float = ..., denoise: bool = ..., unfold: bool = ..., levels: int = ...,
-            initial_stiffness: float = ..., final_stiffness: float = ...,
-            noise_stiffness: float = ..., coarse_steps: int = ..., fine_steps: int = ...,
-            max_rounds: int = ..., tolerance: float = ...,
-            solver_iterations: int = ...) -> None: ...
+            linear_solver: LinearSolver = ..., relinearize_above: float = ...,
+            marginal_reach: int = ..., graph_sampling: Sampling = ...,
+            graph_distance: Distance = ..., node_spacing: float = ..., target_nodes: int = ...,
+            graph_auto_spacing: float = ..., neighbors: int = ..., graph_edges: EdgeRule = ...,
+            graph_edges_per_node: int = ..., graph_min_component_points: int = ...,
+            graph_join_pieces: bool = ..., graph_edges_per_joint: int = ..., w_rot: float = ...,
+            w_reg: float = ..., w_data: float = ..., w_landmark: float = ..., w_fixed: float = ...,
+            point_to_point_share: float = ..., levels: int = ..., initial_stiffness: float = ...,
+            final_stiffness: float = ..., noise_stiffness: float = ..., coarse_steps: int = ...,
+            fine_steps: int = ..., max_rounds: int = ..., tolerance: float = ...,
+            solver_iterations: int = ..., loss: Loss = ..., loss_width: float = ...,
+            careful_loss_width: float = ..., careful_angle_deg: float = ...,
+            max_distance: float = ..., max_angle_deg: float = ...,
+            match_max_deviations: float = ..., match_reject_borders: bool = ...,
+            match_symmetric_normals: bool = ..., max_samples: int = ..., denoise: bool = ...,
+            rigid_first: bool = ..., rigid_scale: bool = ..., rigid_max_angle_deg: float = ...,
+            rigid_score_width: float = ..., rigid_good_score: float = ...,
+            rigid_preference: float = ..., finish: bool = ..., finish_rounds: int = ...,
+            finish_steps: int = ..., finish_smoothing: float = ...,
+            finish_max_smoothing: float = ..., finish_fade: float = ...,
+            finish_point_to_point_share: float = ..., finish_loss_width: float = ...,
+            unfold: bool = ..., covariance: bool = ..., threads: int = ...,
+            time_limit_s: float = ...) -> None: ...
     def __copy__(self) -> FitOptions: ...
     def copy(self) -> FitOptions: ...
 
@@ -362,25 +400,69 @@ class TrackerOptions:
     mode: Mode
     rings: int
     boundary: Boundary
+    linear_solver: LinearSolver
+    relinearize_above: float
+    marginal_reach: int
+    w_rot: float
+    w_reg: float
+    w_node_prior: float
+    w_data: float
+    w_feature: float
+    prior_rotation_deg: float
+    prior_translation: float
     level2: LevelTwo
+    lazy_tolerance: float
+    lazy_reach: int
+    lazy_waves_per_frame: int
+    lazy_max_seeds: int
     camera: CameraMode
-    features: bool
     node_spacing: float
     nodes_in_view: int
     neighbors: int
-    w_rot: float
-    w_reg: float
-    w_data: float
+    features: bool
     rounds: int
     max_observations: int
+    max_point_weight: float
+    memory_max_moments: int
+    memory_likeness: float
+    memory_min_common: int
     verify_every: int
     threads: int
+    feature_count: int
+    feature_max_deviations: float
+    feature_window: int
+    feature_pyramid_levels: int
+    feature_light_radius: float
+    feature_max_round_trip: float
+    feature_min_distance: float
+    feature_quality: float
+    growth_point_spacing: float
+    growth_node_coverage: float
+    growth_edges_per_node: int
+    growth_max_view_angle_deg: float
+    surface_cell: int
+    surface_radius: int
+    surface_max_slope_deg: float
     def __init__(
             self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
-            level2: LevelTwo = ..., camera: CameraMode = ..., features: bool = ...,
-            node_spacing: float = ..., nodes_in_view: int = ..., neighbors: int = ...,
-            w_rot: float = ..., w_reg: float = ..., w_data: float = ..., rounds: int = ...,
-            max_observations: int = ..., verify_every: int = ..., threads: int = ...) -> None: ...
+            linear_solver: LinearSolver = ..., relinearize_above: float = ...,
+            marginal_reach: int = ..., w_rot: float = ..., w_reg: float = ...,
+            w_node_prior: float = ..., w_data: float = ..., w_feature: float = ...,
+            prior_rotation_deg: float = ..., prior_translation: float = ..., level2: LevelTwo = ...,
+            lazy_tolerance: float = ..., lazy_reach: int = ..., lazy_waves_per_frame: int = ...,
+            lazy_max_seeds: int = ..., camera: CameraMode = ..., node_spacing: float = ...,
+            nodes_in_view: int = ..., neighbors: int = ..., features: bool = ..., rounds: int = ...,
+            max_observations: int = ..., max_point_weight: float = ...,
+            memory_max_moments: int = ..., memory_likeness: float = ...,
+            memory_min_common: int = ..., verify_every: int = ..., threads: int = ...,
+            feature_count: int = ..., feature_max_deviations: float = ...,
+            feature_window: int = ..., feature_pyramid_levels: int = ...,
+            feature_light_radius: float = ..., feature_max_round_trip: float = ...,
+            feature_min_distance: float = ..., feature_quality: float = ...,
+            growth_point_spacing: float = ..., growth_node_coverage: float = ...,
+            growth_edges_per_node: int = ..., growth_max_view_angle_deg: float = ...,
+            surface_cell: int = ..., surface_radius: int = ...,
+            surface_max_slope_deg: float = ...) -> None: ...
     def __copy__(self) -> TrackerOptions: ...
     def copy(self) -> TrackerOptions: ...
 
@@ -452,12 +534,25 @@ class MapSnapshot:
 class Tracker:
     def __init__(
             self, intrinsics: Camera, options: Optional[TrackerOptions] = None, *,
-            energies: Optional[Energies] = None, plugin: Optional[Plugins] = None,
-            mode: Mode = ..., rings: int = ..., boundary: Boundary = ..., level2: LevelTwo = ...,
-            camera: CameraMode = ..., features: bool = ..., node_spacing: float = ...,
-            nodes_in_view: int = ..., neighbors: int = ..., w_rot: float = ..., w_reg: float = ...,
-            w_data: float = ..., rounds: int = ..., max_observations: int = ...,
-            verify_every: int = ..., threads: int = ...) -> None: ...
+            energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
+            rings: int = ..., boundary: Boundary = ..., linear_solver: LinearSolver = ...,
+            relinearize_above: float = ..., marginal_reach: int = ..., w_rot: float = ...,
+            w_reg: float = ..., w_node_prior: float = ..., w_data: float = ...,
+            w_feature: float = ..., prior_rotation_deg: float = ..., prior_translation: float = ...,
+            level2: LevelTwo = ..., lazy_tolerance: float = ..., lazy_reach: int = ...,
+            lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ..., camera: CameraMode = ...,
+            node_spacing: float = ..., nodes_in_view: int = ..., neighbors: int = ...,
+            features: bool = ..., rounds: int = ..., max_observations: int = ...,
+            max_point_weight: float = ..., memory_max_moments: int = ...,
+            memory_likeness: float = ..., memory_min_common: int = ..., verify_every: int = ...,
+            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
+            feature_window: int = ..., feature_pyramid_levels: int = ...,
+            feature_light_radius: float = ..., feature_max_round_trip: float = ...,
+            feature_min_distance: float = ..., feature_quality: float = ...,
+            growth_point_spacing: float = ..., growth_node_coverage: float = ...,
+            growth_edges_per_node: int = ..., growth_max_view_angle_deg: float = ...,
+            surface_cell: int = ..., surface_radius: int = ...,
+            surface_max_slope_deg: float = ...) -> None: ...
     def track(
             self, depth: ArrayLike, color: Optional[ArrayLike] = None,
             pose: Optional[ArrayLike] = None, *, units_per_metre: Optional[float] = None,
@@ -480,23 +575,33 @@ def save(
         path: Path, surface: Surface, *, like: Optional[Cloud] = None,
         double_precision: bool = False) -> None: ...
 def fit(
-        source: Surface, target: Optional[Surface] = None, *,
-        landmarks: Optional[Landmarks] = None, fixed: Optional[ArrayLike] = None,
-        energies: Optional[Energies] = None, plugin: Optional[Plugins] = None,
-        options: Optional[FitOptions] = None,
+        source: Surface, target: Optional[Surface] = None, *, landmarks: Optional[Landmarks] = None,
+        fixed: Optional[ArrayLike] = None, energies: Optional[Energies] = None,
+        plugin: Optional[Plugins] = None, options: Optional[FitOptions] = None,
         progress: Optional[Callable[[FitProgress], object]] = None,
         should_stop: Optional[Callable[[], bool]] = None, mode: Mode = ..., rings: int = ...,
-        boundary: Boundary = ..., linear_solver: LinearSolver = ..., rigid_first: bool = ...,
-        rigid_scale: bool = ..., node_spacing: float = ..., neighbors: int = ...,
-        w_rot: float = ..., w_reg: float = ..., w_data: float = ..., loss: Loss = ...,
-        max_distance: float = ..., max_angle_deg: float = ..., max_samples: int = ...,
-        finish: bool = ..., covariance: bool = ..., threads: int = ...,
-        time_limit_s: float = ..., w_landmark: float = ...,
-        w_fixed: float = ..., point_to_point_share: float = ..., target_nodes: int = ...,
-        loss_width: float = ..., denoise: bool = ..., unfold: bool = ..., levels: int = ...,
-        initial_stiffness: float = ..., final_stiffness: float = ..., noise_stiffness: float = ...,
-        coarse_steps: int = ..., fine_steps: int = ..., max_rounds: int = ...,
-        tolerance: float = ..., solver_iterations: int = ...) -> FitResult: ...
+        boundary: Boundary = ..., linear_solver: LinearSolver = ..., relinearize_above: float = ...,
+        marginal_reach: int = ..., graph_sampling: Sampling = ..., graph_distance: Distance = ...,
+        node_spacing: float = ..., target_nodes: int = ..., graph_auto_spacing: float = ...,
+        neighbors: int = ..., graph_edges: EdgeRule = ..., graph_edges_per_node: int = ...,
+        graph_min_component_points: int = ..., graph_join_pieces: bool = ...,
+        graph_edges_per_joint: int = ..., w_rot: float = ..., w_reg: float = ...,
+        w_data: float = ..., w_landmark: float = ..., w_fixed: float = ...,
+        point_to_point_share: float = ..., levels: int = ..., initial_stiffness: float = ...,
+        final_stiffness: float = ..., noise_stiffness: float = ..., coarse_steps: int = ...,
+        fine_steps: int = ..., max_rounds: int = ..., tolerance: float = ...,
+        solver_iterations: int = ..., loss: Loss = ..., loss_width: float = ...,
+        careful_loss_width: float = ..., careful_angle_deg: float = ..., max_distance: float = ...,
+        max_angle_deg: float = ..., match_max_deviations: float = ...,
+        match_reject_borders: bool = ..., match_symmetric_normals: bool = ...,
+        max_samples: int = ..., denoise: bool = ..., rigid_first: bool = ...,
+        rigid_scale: bool = ..., rigid_max_angle_deg: float = ..., rigid_score_width: float = ...,
+        rigid_good_score: float = ..., rigid_preference: float = ..., finish: bool = ...,
+        finish_rounds: int = ..., finish_steps: int = ..., finish_smoothing: float = ...,
+        finish_max_smoothing: float = ..., finish_fade: float = ...,
+        finish_point_to_point_share: float = ..., finish_loss_width: float = ...,
+        unfold: bool = ..., covariance: bool = ..., threads: int = ...,
+        time_limit_s: float = ...) -> FitResult: ...
 def evaluate(
         result: Surface, target: Surface, truth: Optional[Surface] = None,
         source: Optional[Surface] = None) -> Evaluation: ...
