@@ -16,7 +16,7 @@ namespace ceres_ed {
 namespace {
 
 const SequenceFormatReader* FindFormat(SequenceFormat format) {
-  for (const SequenceFormatReader& reader : SequenceFormats()) {
+  for (const SequenceFormatReader& reader : kSequenceFormats) {
     if (reader.format == format) return &reader;
   }
   return nullptr;
@@ -26,7 +26,7 @@ const SequenceFormatReader* FindFormat(SequenceFormat format) {
 Status UnknownLayout(const std::string& directory, const std::string& problem) {
   std::string message = directory + ": " + problem + ", expected";
   const char* separator = " ";
-  for (const SequenceFormatReader& reader : SequenceFormats()) {
+  for (const SequenceFormatReader& reader : kSequenceFormats) {
     message += separator + std::string(reader.needs) + " (" + NameOf(reader.format) + ")";
     separator = ", or ";
   }
@@ -34,7 +34,7 @@ Status UnknownLayout(const std::string& directory, const std::string& problem) {
 }
 
 StatusOr<const SequenceFormatReader*> GuessFormat(const std::string& directory) {
-  for (const SequenceFormatReader& reader : SequenceFormats()) {
+  for (const SequenceFormatReader& reader : kSequenceFormats) {
     if (IsFile(JoinPath(directory, reader.mark))) return &reader;
   }
   return UnknownLayout(directory,

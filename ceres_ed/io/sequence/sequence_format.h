@@ -1,5 +1,5 @@
-// The layouts of depth sequences. A new one is a file with its functions, a value of SequenceFormat
-// and a line in the table of sequence_format.cc.
+// The layouts of depth sequences. A new one is a value of SequenceFormat, a file with its function
+// whose name ends in _format, and a declaration and a row here.
 #ifndef CERES_ED_IO_SEQUENCE_SEQUENCE_FORMAT_H_
 #define CERES_ED_IO_SEQUENCE_SEQUENCE_FORMAT_H_
 
@@ -8,28 +8,34 @@
 #include <ceres_ed/util/status.h>
 
 #include <string>
-#include <vector>
 
 namespace ceres_ed {
 
 // A layout.
 struct SequenceFormatReader {
   SequenceFormat format = SequenceFormat::kAuto;
-  // The file that gives the layout away when it is to be guessed.
+  // The file by which the layout is recognised.
   const char* mark = "";
-  // What the layout can't do without, for the message when none is recognised.
+  // The files that the layout needs, for the message when no layout is recognised.
   const char* needs = "";
   // Returns every frame of the folder, with ascending numbers, at least one, or an error.
   StatusOr<SequenceListing> (*list)(const std::string& directory) = nullptr;
 };
 
-// Returns the layouts in the order in which they are tried on a folder.
-const std::vector<SequenceFormatReader>& SequenceFormats();
-
-// Each in a file of its own; the layouts are told in depth_sequence.h.
+// Each is in a file of its own. depth_sequence.h describes the layouts.
 StatusOr<SequenceListing> ListNativeSequence(const std::string& directory);
 StatusOr<SequenceListing> ListTumSequence(const std::string& directory);
 StatusOr<SequenceListing> ListHamlynSequence(const std::string& directory);
+
+// The layouts in the order in which they are tried on a folder. A TUM folder may also have a
+// camera.txt, so it comes before the native layout.
+inline constexpr SequenceFormatReader kSequenceFormats[] = {
+    {SequenceFormat::kTum, "depth.txt", "depth.txt", ListTumSequence},
+    {SequenceFormat::kNative, "camera.txt", "camera.txt and depth/NNNNNN.png", ListNativeSequence},
+    {SequenceFormat::kHamlyn,
+     "intrinsics.txt",
+     "intrinsics.txt and depth/ or depth01/",
+     ListHamlynSequence}};
 
 }  // namespace ceres_ed
 
