@@ -3,8 +3,6 @@
 #define CERES_ED_GRAPH_GRAPH_BUILDER_H_
 
 #include <ceres_ed/geometry/point_cloud.h>
-#include <ceres_ed/geometry/topology.h>
-#include <ceres_ed/graph/binding.h>
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/graph_options.h>
 #include <ceres_ed/graph/skinning.h>
@@ -14,6 +12,8 @@
 #include <vector>
 
 namespace ceres_ed {
+
+struct SurfaceTopology;
 
 struct BuiltGraph {
   DeformationGraph graph;

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/testing/cost_evaluation.h>
 #include <ceres_ed/testing/energy_info_laws.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <ceres_ed/energy/energy.h>
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/testing/cost_laws.h>
-#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <functional>

@@ -27,13 +27,15 @@ if(CERES_ED_BUILD_APPS)
           COMPONENT tools)
 endif()
 
-install(DIRECTORY ceres_ed cost_functions DESTINATION ${ceres_ed_headers_dir} COMPONENT dev
+# The headers that a user includes, and those that these include. All others are internal.
+include(scripts/cmake/public_headers.cmake)
+foreach(header IN LISTS CERES_ED_PUBLIC_HEADERS)
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES ${header} DESTINATION ${ceres_ed_headers_dir}/${folder} COMPONENT dev)
+endforeach()
+install(DIRECTORY cost_functions DESTINATION ${ceres_ed_headers_dir} COMPONENT dev
         FILES_MATCHING
-        PATTERN "*.h"
-        # The sources of the Python module, what it shares with the programs, and a header that needs PCL.
-        PATTERN "ceres_ed/python" EXCLUDE
-        PATTERN "ceres_ed/pipeline" EXCLUDE
-        PATTERN "ceres_ed/pcl" EXCLUDE)
+        PATTERN "*.h")
 if(CERES_ED_BUILD_PCL)
   install(EXPORT ceres_ed-pcl-targets NAMESPACE ceres_ed:: DESTINATION ${ceres_ed_package_dir} COMPONENT pcl)
   install(FILES scripts/cmake/ceres_ed-pcl.cmake DESTINATION ${ceres_ed_package_dir} COMPONENT pcl)

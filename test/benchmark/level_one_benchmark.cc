@@ -2,6 +2,7 @@
 // and what it is made of before anything is factorised.
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <memory>
 #include <vector>

@@ -1,6 +1,7 @@
 // Marginalising the PI nodes of a strip: 300 PR nodes at one end, all others PI.
 #include <ceres_ed/solver/marginal/marginalization.h>
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <cmath>
 #include <memory>

@@ -6,6 +6,7 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <algorithm>
 #include <cmath>

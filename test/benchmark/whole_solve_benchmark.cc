@@ -9,6 +9,7 @@
 // one, which shows that nothing is to be gained), cost, milliseconds without building, and by how
 // much the cost differs from that of the block solver, relative to it.
 #include <ceres_ed/solver/level_solver.h>
+#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>

@@ -6,6 +6,7 @@
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/energy_laws.h>
+#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam.h>
 #include <ceres_ed/testing/energy_laws.h>
+#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <algorithm>

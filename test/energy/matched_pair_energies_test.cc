@@ -2,6 +2,7 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/testing/cost_evaluation.h>
 #include <ceres_ed/testing/energy_laws.h>
+#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <cmath>

@@ -1,5 +1,6 @@
 // What a builder does with residuals that are no good.
 #include <ceres_ed/problem/problem_builder.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <cmath>
 #include <memory>

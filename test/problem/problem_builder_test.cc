@@ -1,5 +1,7 @@
 #include "ceres_ed/problem/problem_builder.h"
 
+#include <ceres_ed/testing/residual_collection.h>
+
 #include <algorithm>
 #include <vector>
 

@@ -3,6 +3,7 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/solver/covariance/state_covariance.h>
+#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <cmath>

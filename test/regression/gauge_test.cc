@@ -1,5 +1,6 @@
 // What camera and nodes can trade when every node is seen, and what settles it.
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <cmath>
 #include <memory>

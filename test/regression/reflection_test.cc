@@ -1,4 +1,6 @@
 // E_rot does not tell a reflection from a rotation; a solve that starts at rest ends with none.
+#include <ceres_ed/testing/residual_collection.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>

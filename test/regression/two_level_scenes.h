@@ -11,6 +11,7 @@
 #include <ceres_ed/simulation/shapes.h>
 #include <ceres_ed/simulation/views.h>
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <cmath>
 #include <memory>

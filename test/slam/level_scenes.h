@@ -6,6 +6,7 @@
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/slam/levels/levels.h>
 #include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <algorithm>

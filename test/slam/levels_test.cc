@@ -2,6 +2,7 @@
 
 #include <ceres_ed/graph/node_neighborhood.h>
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <algorithm>
 #include <cmath>

@@ -5,6 +5,7 @@
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
+#include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <memory>

@@ -1,5 +1,6 @@
 // Marginalisation against dense linear algebra on what Ceres linearises.
 #include <ceres_ed/solver/marginal/marginalization.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // How solves end.
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <chrono>
 #include <cmath>

@@ -1,5 +1,7 @@
 #include "ceres_ed/solver/strategy.h"
 
+#include <ceres_ed/testing/residual_collection.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>

@@ -3,6 +3,7 @@
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/solver/strategy.h>
+#include <ceres_ed/testing/residual_collection.h>
 
 #include <cmath>
 #include <memory>

@@ -1,8 +1,8 @@
 // Follows the camera and the tissue of a depth sequence, and writes the map: the core of ed_slam.
 #include <ceres_ed/energy/builtin_energies.h>
-#include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/io/sequence/depth_sequence.h>
-#include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/pipeline/slam/map_export.h>
 #include <ceres_ed/slam/slam.h>
 
 #include <cstdio>
@@ -16,18 +16,6 @@ namespace {
 int Fail(const Status& status) {
   std::fprintf(stderr, "%s\n", status.message().c_str());
   return 1;
-}
-
-// All points as they are now: metres, in the frame of the first camera.
-PointCloud MapNow(const DeformableSlam& slam) {
-  const DeformableMap& map = slam.map();
-  PointCloud cloud;
-  for (int slot = 0; slot < map.num_slots(); ++slot) {
-    if (!map.alive(slot)) continue;
-    const PointBinding binding = map.binding(slot);
-    cloud.points.push_back(slam.unit() * (map.WarpOf(binding) * map.point(slot).position));
-  }
-  return cloud;
 }
 
 }  // namespace
@@ -61,7 +49,7 @@ int main(int argc, char** argv) {  // sequence FOLDER MAP.ply
   }
 
   (*slam)->CatchUp();  // hidden nodes that were left behind follow
-  const Status saved = WriteCloud(argv[2], MapNow(**slam));
+  const Status saved = WriteMapCloud(argv[2], ExportMap(**slam));
   if (!saved.ok()) return Fail(saved);
   return tracked + 1 == (*sequence)->num_frames() ? 0 : 1;
 }

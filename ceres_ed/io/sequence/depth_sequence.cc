@@ -1,6 +1,7 @@
 #include "ceres_ed/io/sequence/depth_sequence.h"
 
 #include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/sequence/sequence_listing.h>
 
 #include <cstddef>
 #include <utility>
@@ -23,14 +24,31 @@ void ApplyMask(const MaskImage& mask, DepthImage* depth) {
 }  // namespace
 
 DepthSequence::DepthSequence(SequenceListing listing, std::string description)
-    : listing_(std::move(listing)), description_(std::move(description)) {
-  CHECK(!listing_.entries.empty()) << "a sequence has at least one frame";
+    : listing_(std::make_unique<const SequenceListing>(std::move(listing))),
+      description_(std::move(description)) {
+  CHECK(!listing_->entries.empty()) << "a sequence has at least one frame";
 }
+
+DepthSequence::~DepthSequence() = default;
+
+const PinholeCamera& DepthSequence::camera() const { return listing_->camera.camera; }
+
+double DepthSequence::depth_units_per_metre() const {
+  return listing_->camera.depth_units_per_metre;
+}
+
+int DepthSequence::num_frames() const { return static_cast<int>(listing_->entries.size()); }
+
+int DepthSequence::frame_number(int i) const { return entry(i).number; }
+
+double DepthSequence::time_s(int i) const { return entry(i).time_s; }
+
+const std::vector<std::string>& DepthSequence::warnings() const { return listing_->warnings; }
 
 const SequenceEntry& DepthSequence::entry(int i) const {
   CHECK_GE(i, 0);
   CHECK_LT(i, num_frames());
-  return listing_.entries[static_cast<std::size_t>(i)];
+  return listing_->entries[static_cast<std::size_t>(i)];
 }
 
 const CameraPose* DepthSequence::given_pose(int i) const {
@@ -39,7 +57,7 @@ const CameraPose* DepthSequence::given_pose(int i) const {
 }
 
 bool DepthSequence::has_color() const {
-  for (const SequenceEntry& entry : listing_.entries) {
+  for (const SequenceEntry& entry : listing_->entries) {
     if (!entry.color_path.empty()) return true;
   }
   return false;

@@ -27,7 +27,6 @@
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/graph/deformation_state.h>
-#include <ceres_ed/io/sequence/sequence_listing.h>
 #include <ceres_ed/util/named_values.h>
 #include <ceres_ed/util/options_fwd.h>
 #include <ceres_ed/util/status.h>
@@ -38,6 +37,9 @@
 #include <vector>
 
 namespace ceres_ed {
+
+struct SequenceEntry;
+struct SequenceListing;
 
 // The layout of a folder.
 enum class SequenceFormat { kAuto, kNative, kTum, kHamlyn };
@@ -100,17 +102,20 @@ class DepthSequence {
  public:
   // Frames of `listing` as they stand, at least one. `description` is for a user to read.
   DepthSequence(SequenceListing listing, std::string description);
+  ~DepthSequence();
+  DepthSequence(const DepthSequence&) = delete;
+  DepthSequence& operator=(const DepthSequence&) = delete;
 
-  const PinholeCamera& camera() const { return listing_.camera.camera; }
+  const PinholeCamera& camera() const;
   // Stored depth / this = metres.
-  double depth_units_per_metre() const { return listing_.camera.depth_units_per_metre; }
+  double depth_units_per_metre() const;
 
-  int num_frames() const { return static_cast<int>(listing_.entries.size()); }
+  int num_frames() const;
   // The number that the sequence gives to frame 0 <= i < num_frames(); ascending.
-  int frame_number(int i) const { return entry(i).number; }
+  int frame_number(int i) const;
   // When frame i was taken, seconds: its time stamp (tum), or its number where the rate is unknown
   // (native, hamlyn). Not descending.
-  double time_s(int i) const { return entry(i).time_s; }
+  double time_s(int i) const;
   // The true world_from_camera of frame i, metres; null where the sequence has none.
   const CameraPose* given_pose(int i) const;
   // Whether at least one frame has colour.
@@ -119,7 +124,7 @@ class DepthSequence {
   // One line: the format and how it was guessed, frames, size, unit, what else is there.
   const std::string& description() const { return description_; }
   // Sentences about what is missing: gaps, frames without colour, mask or pose, intrinsics assumed.
-  const std::vector<std::string>& warnings() const { return listing_.warnings; }
+  const std::vector<std::string>& warnings() const;
 
   // Returns frame i with its mask applied, or an error that names the file; then `problem`, if not
   // null, tells whether the caller can go on without this frame. A missing or damaged colour
@@ -133,7 +138,7 @@ class DepthSequence {
   Status LoadDepth(const SequenceEntry& entry, DepthImage* depth, FrameProblem* problem) const;
   Status LoadColor(const SequenceEntry& entry, DepthFrame* frame, FrameProblem* problem) const;
 
-  SequenceListing listing_;
+  std::unique_ptr<const SequenceListing> listing_;
   std::string description_;
 };
 

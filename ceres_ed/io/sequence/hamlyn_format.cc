@@ -1,6 +1,7 @@
 #include "ceres_ed/io/sequence/sequence_format.h"
 
 #include <ceres_ed/io/sequence/picture_files.h>
+#include <ceres_ed/io/sequence/sequence_listing.h>
 #include <ceres_ed/io/text_rows.h>
 
 #include <cmath>

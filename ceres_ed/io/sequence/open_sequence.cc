@@ -2,6 +2,7 @@
 
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_format.h>
+#include <ceres_ed/io/sequence/sequence_listing.h>
 #include <ceres_ed/util/options.h>
 
 #include <algorithm>

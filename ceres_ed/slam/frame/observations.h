@@ -2,6 +2,7 @@
 #ifndef CERES_ED_SLAM_FRAME_OBSERVATIONS_H_
 #define CERES_ED_SLAM_FRAME_OBSERVATIONS_H_
 
+#include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/slam/map/map_points.h>
 
 #include <vector>
