@@ -11,15 +11,18 @@
 
 namespace ceres_ed {
 
-// Three residuals t_j - sum_k b_k t_k in map units: how far a node moves otherwise than the mean of
-// its neighbours. Zero where all move by the same translation; a rotation of all bends it by the
-// node's distance from the mean of its neighbours, which is nothing inside a regular graph.
+// The graph Laplacian of the node translations. It has three residuals, in map units:
+//   t_j - sum_k b_k t_k
+// They are the difference between the translation of node j and the weighted mean of the
+// translations of its neighbours k. They are zero when all nodes have the same translation. When
+// all nodes rotate together, they grow with the distance of node j from the mean position of its
+// neighbours, which is zero inside a regular graph.
 // Parameter blocks: node j, then each neighbour (12 each).
 class LaplacianCost final : public ceres::CostFunction {
  public:
   static constexpr int kNumResiduals = 3;
 
-  // b_k >= 0, one a neighbour; they sum to 1.
+  // `neighbor_weights` has one b_k >= 0 for each neighbour. The weights sum to 1.
   explicit LaplacianCost(std::vector<double> neighbor_weights)
       : coefficients_(std::move(neighbor_weights)) {
     for (double& coefficient : coefficients_) coefficient = -coefficient;
@@ -28,6 +31,7 @@ class LaplacianCost final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->assign(coefficients_.size(), kNodeSize);
   }
 
+  // Computes the residuals and, where asked for, the Jacobians. Always returns true.
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
@@ -36,7 +40,7 @@ class LaplacianCost final : public ceres::CostFunction {
       for (int i = 0; i < kNumResiduals; ++i) {
         residuals[i] += coefficients_[b] * parameters[b][kNodeTranslationOffset + i];
       }
-      // Null for every block that is held.
+      // Ceres passes a null pointer for each block that is held constant.
       if (jacobians == nullptr || jacobians[b] == nullptr) continue;
       std::fill_n(jacobians[b], kNumResiduals * kNodeSize, 0.0);
       for (int i = 0; i < kNumResiduals; ++i) {
@@ -47,6 +51,7 @@ class LaplacianCost final : public ceres::CostFunction {
   }
 
  private:
+  // One coefficient for each parameter block: 1 for node j, -b_k for its neighbours.
   std::vector<double> coefficients_;
 };
 

@@ -1,4 +1,4 @@
-// Keeps a node near where it is thought to be.
+// A prior that keeps a node near an expected translation.
 #ifndef CERES_ED_COST_FUNCTIONS_NODE_PRIOR_COST_H_
 #define CERES_ED_COST_FUNCTIONS_NODE_PRIOR_COST_H_
 
@@ -7,15 +7,19 @@
 
 namespace ceres_ed {
 
-// Three residuals, in map units:
+// The difference between the translation of a node and an expected one. It has three residuals, in
+// map units:
 //   t_j - t_prior
-// Parameter blocks: node j (12). Nothing is said of A_j, which follows by E_rot and E_reg.
+// Parameter blocks: node j (12). The affine matrix A_j is not part of it; E_rot and E_reg determine
+// A_j.
 class NodePriorCost {
  public:
   static constexpr int kNumResiduals = 3;
 
+  // `translation` is t_prior, in map units.
   explicit NodePriorCost(const Eigen::Vector3d& translation) : translation_(translation) {}
 
+  // Writes the three residuals for the parameter block `node`. Always returns true.
   template <typename T>
   bool operator()(const T* node, T* residuals) const {
     const auto t_j = NodeTranslation(node);
@@ -23,6 +27,7 @@ class NodePriorCost {
     return true;
   }
 
+  // Returns a new cost function with automatic derivatives. The caller owns it.
   static ceres::CostFunction* Create(const Eigen::Vector3d& translation) {
     return new ceres::AutoDiffCostFunction<NodePriorCost, kNumResiduals, kNodeSize>(
         new NodePriorCost(translation));

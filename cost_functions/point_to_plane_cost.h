@@ -1,4 +1,4 @@
-// Distance of a warped point to the tangent plane of the target.
+// The distance of a warped point from the tangent plane of the target.
 #ifndef CERES_ED_COST_FUNCTIONS_POINT_TO_PLANE_COST_H_
 #define CERES_ED_COST_FUNCTIONS_POINT_TO_PLANE_COST_H_
 
@@ -6,17 +6,21 @@
 
 namespace ceres_ed {
 
-// One residual n . (v~ - v^) in map units: the warped point's signed distance to the plane through
-// the target point v^ with unit normal n (the data term of depth tracking, section IV of the
-// paper). Target and normal are in the camera frame where there is a camera. A point functor
-// (warped_point_cost.h). A zero normal makes a zero residual.
+// The signed distance of the warped point from a plane. It has one residual, in map units:
+//   n . (v~ - v^)
+// The plane goes through the target point v^ and has the unit normal n (the data term of depth
+// tracking, section IV of the paper). If there is a camera, the target and the normal are in the
+// camera frame. If the normal is zero, the residual is zero. This is a point functor (see
+// warped_point_cost.h).
 class PointToPlaneCost {
  public:
   static constexpr int kNumResiduals = 1;
 
+  // `target` is v^ in map units; `normal` is n, of length 1 or 0.
   PointToPlaneCost(const Eigen::Vector3d& target, const Eigen::Vector3d& normal)
       : normal_(normal), offset_(normal.dot(target)) {}
 
+  // Writes the residual. Always returns true.
   template <typename T>
   bool operator()(const T* point, T* residual) const {
     residual[0] =

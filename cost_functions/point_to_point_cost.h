@@ -1,4 +1,4 @@
-// Point-to-point distance of a warped point to a target point.
+// The distance of a warped point from a target point.
 #ifndef CERES_ED_COST_FUNCTIONS_POINT_TO_POINT_COST_H_
 #define CERES_ED_COST_FUNCTIONS_POINT_TO_POINT_COST_H_
 
@@ -6,14 +6,18 @@
 
 namespace ceres_ed {
 
-// Three residuals v~ - v^ (Eq. 7) in map units: the warped point minus its target, both in the
-// camera frame where there is a camera. A point functor (warped_point_cost.h).
+// The warped point minus its target (Eq. 7). It has three residuals, in map units:
+//   v~ - v^
+// If there is a camera, both points are in the camera frame. This is a point functor (see
+// warped_point_cost.h).
 class PointToPointCost {
  public:
   static constexpr int kNumResiduals = 3;
 
+  // `target` is v^ in map units.
   explicit PointToPointCost(const Eigen::Vector3d& target) : target_(target) {}
 
+  // Writes the three residuals. Always returns true.
   template <typename T>
   bool operator()(const T* point, T* residuals) const {
     for (int i = 0; i < 3; ++i) residuals[i] = point[i] - T(target_[i]);

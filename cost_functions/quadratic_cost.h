@@ -1,5 +1,5 @@
-// A quadratic of any number of blocks: what is left on some parameters when others have been
-// eliminated (Eq. 20).
+// A quadratic cost over any number of parameter blocks. It is what remains for some parameters
+// after others have been eliminated (Eq. 20).
 #ifndef CERES_ED_COST_FUNCTIONS_QUADRATIC_COST_H_
 #define CERES_ED_COST_FUNCTIONS_QUADRATIC_COST_H_
 
@@ -16,36 +16,42 @@
 
 namespace ceres_ed {
 
-// cost(x) = constant + gradient^T d + d^T hessian d / 2, with d = x - origin.
+// A quadratic function of the parameters x:
+//   cost(x) = constant + gradient^T d + d^T hessian d / 2, with d = x - origin
 struct Quadratic {
   Eigen::VectorXd origin;
-  // Symmetric and positive semi-definite, both triangles.
+  // A symmetric, positive semi-definite matrix; both triangles are filled in.
   Eigen::MatrixXd hessian;
-  // In the range of `hessian`, as it is wherever the cost has a minimum.
+  // The gradient at `origin`. It lies in the range of `hessian`, which holds for every cost that
+  // has a minimum.
   Eigen::VectorXd gradient;
   double constant = 0.0;
 
+  // Returns the cost at x = origin + d.
   double Value(const Eigen::VectorXd& d) const {
     return constant + gradient.dot(d) + 0.5 * d.dot(hessian * d);
   }
 };
 
-// The same as |root d + residual|^2 / 2 + constant.
+// The same quadratic written as |root d + residual|^2 / 2 + constant.
 struct SquareRootForm {
   Eigen::MatrixXd root;
   Eigen::VectorXd residual;
   double constant = 0.0;
 };
 
-// A Quadratic as a cost function over blocks of given sizes, with n = their sum:
+// A Quadratic as a cost function over blocks of given sizes. With n as the sum of the sizes, it has
+// n + 1 residuals:
 //   [root d + residual; sqrt(2 constant)]
-// Residuals: n + 1. Those of directions that cost nothing are zero, and the last one doesn't move:
-// it makes the cost that of the quadratic wherever its minimum is not negative.
+// The residuals of directions that cost nothing are zero. The last residual does not depend on the
+// parameters. It makes the cost equal to that of the quadratic wherever the minimum of the
+// quadratic is not negative.
 //
-// Its Jacobian is constant and its square known: a solver that knows of Quadratic need not square
-// it at every step.
+// The Jacobian is constant, and its square is known: it is the Hessian. A solver that knows the
+// class Quadratic therefore need not compute the square at every step.
 class QuadraticCost final : public ceres::CostFunction {
  public:
+  // Fails a CHECK unless the sizes of `quadratic` are the sum of `block_sizes`.
   QuadraticCost(const std::vector<int>& block_sizes, Quadratic quadratic)
       : quadratic_(std::move(quadratic)) {
     for (const int size : block_sizes) mutable_parameter_block_sizes()->push_back(size);
@@ -58,18 +64,18 @@ class QuadraticCost final : public ceres::CostFunction {
     set_num_residuals(sum + 1);
   }
 
-  // Number of parameters.
+  // Returns the number of parameters n.
   int size() const { return num_residuals() - 1; }
   const Quadratic& quadratic() const { return quadratic_; }
 
-  // Another quadratic of the same size.
+  // Replaces the quadratic by another one of the same size.
   void Set(Quadratic quadratic) {
     CHECK_EQ(quadratic.hessian.rows(), size());
     quadratic_ = std::move(quadratic);
     has_root_ = has_residual_ = false;
   }
 
-  // The same Hessian about another point.
+  // Moves the quadratic to another point and keeps its Hessian.
   void SetOrigin(const Eigen::VectorXd& origin, const Eigen::VectorXd& gradient, double constant) {
     quadratic_.origin = origin;
     quadratic_.gradient = gradient;
@@ -77,7 +83,7 @@ class QuadraticCost final : public ceres::CostFunction {
     has_residual_ = false;
   }
 
-  // x - origin, block by block.
+  // Returns x - origin, of size n. `parameters` has one pointer for each block.
   Eigen::VectorXd Difference(double const* const* parameters) const {
     Eigen::VectorXd d(size());
     int row = 0;
@@ -89,7 +95,9 @@ class QuadraticCost final : public ceres::CostFunction {
     return d - quadratic_.origin;
   }
 
-  // Worked out when it is first asked for; the Hessian's part is kept until it changes.
+  // Returns the square-root form. It is computed at the first call. The part that depends on the
+  // Hessian alone is kept until the Hessian changes. Several threads may call this at the same
+  // time.
   const SquareRootForm& SquareRoot() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!has_root_) FactorHessian();
@@ -97,6 +105,7 @@ class QuadraticCost final : public ceres::CostFunction {
     return form_;
   }
 
+  // Computes the residuals and, where asked for, the Jacobians. Always returns true.
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
@@ -120,10 +129,11 @@ class QuadraticCost final : public ceres::CostFunction {
   }
 
  private:
-  // Pivots below this share of the largest one are rounding: a rigid motion costs nothing.
+  // A pivot smaller than this fraction of the largest one counts as zero. Such pivots are rounding
+  // errors; they occur since a rigid motion costs nothing.
   static constexpr double kRankTolerance = 1e-13;
 
-  // hessian = P^T L D L^T P with the large pivots first, so root = D^1/2 L^T P.
+  // Factors hessian = P^T L D L^T P, with large pivots first. Hence root = D^1/2 L^T P.
   void FactorHessian() const {
     ldlt_.compute(quadratic_.hessian);
     const Eigen::VectorXd D = ldlt_.vectorD();
@@ -132,14 +142,15 @@ class QuadraticCost final : public ceres::CostFunction {
     for (int i = 0; i < size(); ++i) {
       if (D[i] > smallest) root_D_[i] = std::sqrt(D[i]);
     }
-    // Eigen 3.4 permutes the wrong way round where the transpositions stand on the right.
+    // Eigen 3.4 permutes in the wrong direction when the transpositions stand on the right-hand
+    // side of a product. The code therefore transposes the product.
     const Eigen::MatrixXd transposed = Eigen::MatrixXd(ldlt_.matrixL()) * root_D_.asDiagonal();
     form_.root = (ldlt_.transpositionsP().transpose() * transposed).transpose();
     has_root_ = true;
     has_residual_ = false;
   }
 
-  // root^T residual = gradient.
+  // Solves root^T residual = gradient.
   void SolveForResidual() const {
     Eigen::VectorXd r = ldlt_.transpositionsP() * quadratic_.gradient;
     ldlt_.matrixL().solveInPlace(r);

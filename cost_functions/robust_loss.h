@@ -1,4 +1,5 @@
-// Robust losses that Ceres lacks. Both are bounded: an outlier's pull falls to nothing.
+// Robust losses that Ceres does not have. Both are bounded, so that the influence of an outlier
+// goes to zero with its distance.
 #ifndef CERES_ED_COST_FUNCTIONS_ROBUST_LOSS_H_
 #define CERES_ED_COST_FUNCTIONS_ROBUST_LOSS_H_
 
@@ -8,8 +9,10 @@
 
 namespace ceres_ed {
 
-// Welsch: rho(s) = a^2 (1 - exp(-s / a^2)) of the squared residual norm s; rho ~ s for s << a^2 and
-// saturates at a^2. `width` a is in the unit of the residual and must be positive.
+// The Welsch loss of the squared residual norm s:
+//   rho(s) = a^2 (1 - exp(-s / a^2))
+// It is about s for s << a^2 and approaches a^2 for large s. The width a > 0 has the unit of the
+// residual.
 class WelschLoss final : public ceres::LossFunction {
  public:
   explicit WelschLoss(double width) : squared_width_(width * width) {}
@@ -24,7 +27,10 @@ class WelschLoss final : public ceres::LossFunction {
   double squared_width_;
 };
 
-// Geman-McClure: rho(s) = a^2 s / (a^2 + s); saturates at a^2, with heavier tails than Welsch.
+// The Geman-McClure loss of the squared residual norm s:
+//   rho(s) = a^2 s / (a^2 + s)
+// It approaches a^2 for large s, more slowly than the Welsch loss. The width a > 0 has the unit of
+// the residual.
 class GemanMcClureLoss final : public ceres::LossFunction {
  public:
   explicit GemanMcClureLoss(double width) : squared_width_(width * width) {}

@@ -7,13 +7,16 @@
 
 namespace ceres_ed {
 
-// Six residuals that vanish when A_j = [c1 c2 c3] is orthonormal (Eq. 5):
-//   c1.c2, c1.c3, c2.c3, c1.c1 - 1, c2.c2 - 1, c3.c3 - 1   (no unit)
-// Parameter blocks: node j (12). Invariant to A -> Q A with Q orthonormal; a reflection costs
-// nothing, so a solve has to start with det A > 0 and its end be checked for it.
+// The deviation of A_j = [c1 c2 c3] from an orthonormal matrix (Eq. 5). It has six residuals,
+// without a unit:
+//   c1.c2, c1.c3, c2.c3, c1.c1 - 1, c2.c2 - 1, c3.c3 - 1
+// A multiplication A -> Q A by an orthonormal Q does not change them. A reflection therefore costs
+// nothing: a solve must start with det A > 0, and its result must be checked for det A > 0.
+// Parameter blocks: node j (12).
 struct RotationCost {
   static constexpr int kNumResiduals = 6;
 
+  // Writes the six residuals for the parameter block `node`. Always returns true.
   template <typename T>
   bool operator()(const T* node, T* residuals) const {
     const auto A_j = NodeAffine(node);
@@ -24,6 +27,7 @@ struct RotationCost {
     return true;
   }
 
+  // Returns a new cost function with automatic derivatives. The caller owns it.
   static ceres::CostFunction* Create() {
     return new ceres::AutoDiffCostFunction<RotationCost, kNumResiduals, kNodeSize>(
         new RotationCost);

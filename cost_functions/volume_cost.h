@@ -15,9 +15,10 @@
 
 namespace ceres_ed {
 
-// The volume that triangles enclose, counter-clockwise seen from outside: by the divergence
-// theorem 1/6 sum a . (b x c), about any point `origin` (near the mesh, for the sake of rounding).
-// Cubic map units.
+// Returns the volume that triangles enclose, in cubic map units. The triangles are
+// counter-clockwise as seen from outside. By the divergence theorem it is the sum of a . (b x c) /
+// 6 over the triangles, where the corners are taken relative to `origin`. The origin may be any
+// point; a point near the mesh keeps rounding errors small.
 inline double EnclosedVolume(const std::vector<Eigen::Vector3d>& points,
                              const std::vector<std::array<int, 3>>& triangles,
                              const Eigen::Vector3d& origin) {
@@ -29,18 +30,21 @@ inline double EnclosedVolume(const std::vector<Eigen::Vector3d>& points,
   return six_volumes / 6.0;
 }
 
-// One residual (V - V_0) / V_0, no unit: by how much the volume has changed. The derivative by a
-// vertex is a third of the sum of its triangles' area vectors.
-// Parameter blocks: the nodes that carry the vertices (12 each).
+// The relative change of the volume of a closed mesh. It has one residual, without a unit:
+//   (V - V_0) / V_0
+// The derivative of V with respect to a vertex is a third of the sum of the area vectors of its
+// triangles.
+// Parameter blocks: the nodes to which the vertices are bound (12 each).
 class VolumeCost final : public ceres::CostFunction {
  public:
-  // A vertex, and which of the parameter blocks each of its nodes is.
+  // A vertex, and for each of its nodes the index of the parameter block.
   struct Vertex {
     BoundPoint bound;
     std::array<int, kMaxBoundNodes> blocks;
   };
 
-  // Triangles are of indices into `vertices`; `rest_volume` is V_0, not 0; `num_nodes` >= 1.
+  // `triangles` has indices into `vertices`. `rest_volume` is V_0, in cubic map units, and is not
+  // 0. `num_nodes` >= 1 is the number of parameter blocks.
   VolumeCost(std::vector<Vertex> vertices,
              std::vector<std::array<int, 3>> triangles,
              double rest_volume,
@@ -51,6 +55,7 @@ class VolumeCost final : public ceres::CostFunction {
     mutable_parameter_block_sizes()->assign(num_nodes, kNodeSize);
   }
 
+  // Computes the residual and, where asked for, the Jacobians. Always returns true.
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
@@ -69,7 +74,8 @@ class VolumeCost final : public ceres::CostFunction {
   }
 
  private:
-  // The mesh is closed, so that the origin has no part in it.
+  // Returns the derivative of the residual with respect to each vertex. Since the mesh is closed,
+  // the derivative with respect to the origin is zero.
   std::vector<Eigen::Vector3d> ByVertex(const std::vector<Eigen::Vector3d>& points,
                                         const Eigen::Vector3d& origin) const {
     std::vector<Eigen::Vector3d> derivatives(points.size(), Eigen::Vector3d::Zero());
@@ -83,7 +89,8 @@ class VolumeCost final : public ceres::CostFunction {
     return derivatives;
   }
 
-  // Ceres passes a null pointer for every block that is held constant: each one is tested.
+  // Writes the Jacobians. Ceres passes a null pointer for each block that is held constant, so each
+  // pointer is tested.
   void FillJacobians(const std::vector<Eigen::Vector3d>& by_vertex, double** jacobians) const {
     for (std::size_t b = 0; b < parameter_block_sizes().size(); ++b) {
       if (jacobians[b] != nullptr) std::fill_n(jacobians[b], kNodeSize, 0.0);

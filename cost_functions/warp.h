@@ -10,12 +10,13 @@
 
 namespace ceres_ed {
 
-// An affine combination of nodes, sum_i w_i [A_i o_i + t_i] + anchor: a point v and the nodes that
-// carry it, with all that is constant in Eq. 1 worked out, or any other.
+// An affine combination of nodes, sum_i w_i [A_i o_i + t_i] + anchor. It usually is a point v with
+// the nodes to which it is bound; all constants of Eq. 1 are then precomputed.
 class BoundPoint {
  public:
-  // `node_positions[i]` is g of the i-th of `num_nodes` nodes (1 to kMaxBoundNodes) and
-  // `weights[i]` its w_i(v); the weights sum to 1. Map units.
+  // Binds `point` to `num_nodes` nodes (1 to kMaxBoundNodes). `position_of_node(i)` returns g_i,
+  // the position of its i-th node, and `weights[i]` is w_i(v). The weights sum to 1. Lengths are in
+  // map units.
   template <typename PositionOfNode>
   BoundPoint(const Eigen::Vector3d& point,
              int num_nodes,
@@ -30,7 +31,8 @@ class BoundPoint {
     }
   }
 
-  // Any weights, offsets o_i and anchor; lengths in map units.
+  // Builds any other combination from weights w_i, offsets o_i and an anchor. Lengths are in map
+  // units.
   BoundPoint(int num_nodes,
              const double* weights,
              const Eigen::Vector3d* offsets,
@@ -43,11 +45,11 @@ class BoundPoint {
   }
 
   int num_nodes() const { return num_nodes_; }
-  // w_i(v), no unit.
+  // The weight w_i(v) of the i-th node, without a unit.
   double weight(int i) const { return weights_[i]; }
-  // v - g_i, map units.
+  // The offset v - g_i from the i-th node, in map units.
   const Eigen::Vector3d& offset(int i) const { return offsets_[i]; }
-  // sum_i w_i g_i, map units.
+  // The anchor sum_i w_i g_i, in map units.
   const Eigen::Vector3d& anchor() const { return anchor_; }
 
  private:
@@ -57,8 +59,8 @@ class BoundPoint {
   Eigen::Vector3d anchor_ = Eigen::Vector3d::Zero();
 };
 
-// The warped point in the map: sum_i w_i [A_i (v - g_i) + g_i + t_i] (inner part of Eq. 1).
-// `nodes[i]` is the parameter block of the point's i-th node.
+// Returns the warped point in the map frame: sum_i w_i [A_i (v - g_i) + g_i + t_i] (the inner part
+// of Eq. 1), in map units. `nodes[i]` is the parameter block of the point's i-th node.
 template <typename T>
 Eigen::Matrix<T, 3, 1> WarpToMap(const BoundPoint& point, T const* const* nodes) {
   Eigen::Matrix<T, 3, 1> warped = point.anchor().cast<T>();
@@ -69,8 +71,8 @@ Eigen::Matrix<T, 3, 1> WarpToMap(const BoundPoint& point, T const* const* nodes)
   return warped;
 }
 
-// R_c p + T_c (outer part of Eq. 1). `rotation` is a unit quaternion (x y z w), `translation` in
-// map units.
+// Returns the point in the camera frame: R_c p + T_c (the outer part of Eq. 1). `rotation` is a
+// unit quaternion (x y z w); `translation` is in map units.
 template <typename T>
 Eigen::Matrix<T, 3, 1> MapToCamera(const T* rotation,
                                    const T* translation,
@@ -80,8 +82,8 @@ Eigen::Matrix<T, 3, 1> MapToCamera(const T* rotation,
   return R_c * point_in_map + T_c;
 }
 
-// The derivative of R_c p by the entries x y z w of R_c's quaternion, 3 x 4:
-// R p = p + 2 w (u x p) + 2 u x (u x p), with q = (u, w).
+// Returns the derivative of R_c p with respect to the entries x y z w of R_c's quaternion, as a 3 x
+// 4 matrix. It follows from R p = p + 2 w (u x p) + 2 u x (u x p), with q = (u, w).
 inline Eigen::Matrix<double, 3, kRotationSize> RotatedByQuaternion(const Eigen::Quaterniond& R_c,
                                                                    const Eigen::Vector3d& p) {
   const Eigen::Vector3d u = R_c.vec();

@@ -1,12 +1,12 @@
-// The two carriers that bring a functor on a warped point to Ceres.
+// Two classes that turn a functor of a warped point into a Ceres cost function.
 //
-// A point functor knows nothing of graphs:
+// A point functor does not depend on the graph:
 //   struct MyFunctor {
 //     static constexpr int kNumResiduals = 1;
 //     template <typename T> bool operator()(const T* point, T* residuals) const;
 //   };
-// `point` is the warped point (3 values, map units): in the camera frame where there is a camera,
-// in the map frame otherwise.
+// `point` is the warped point (3 values, in map units). It is in the camera frame if there is a
+// camera, and in the map frame otherwise. The functor returns false if it can't be evaluated.
 #ifndef CERES_ED_COST_FUNCTIONS_WARPED_POINT_COST_H_
 #define CERES_ED_COST_FUNCTIONS_WARPED_POINT_COST_H_
 
@@ -25,8 +25,9 @@
 
 namespace ceres_ed {
 
-// Residuals of a point functor at the warped point, and their kNumResiduals x 3 row-major
-// derivative by it unless `jacobian` is null. False where the functor fails.
+// Evaluates a point functor at the warped point. Writes its residuals and, unless `jacobian` is
+// null, their derivative with respect to the point (kNumResiduals x 3, row-major). Returns false if
+// the functor fails.
 template <typename Functor>
 bool EvaluatePointFunctor(const Functor& functor,
                           const double* warped,
@@ -44,14 +45,16 @@ bool EvaluatePointFunctor(const Functor& functor,
   return true;
 }
 
-// The fast carrier: 3-wide jets through the functor, chained with the warp's own Jacobian. The same
-// numbers as AutoDiffWarpedPointCost at a tenth of its time.
+// The fast version. It evaluates the functor with jets of width 3 and applies the chain rule with
+// the analytic Jacobian of the warp. It gives the same numbers as CreateAutoDiffWarpedPointCost()
+// in a tenth of the time.
 // Parameter blocks: the point's nodes (12 each), then, with a camera, R_c (4) and T_c (3).
 template <typename Functor>
 class WarpedPointCost final : public ceres::CostFunction {
  public:
   static constexpr int kNumResiduals = Functor::kNumResiduals;
 
+  // `has_camera` says whether the point is taken into the camera frame.
   WarpedPointCost(Functor functor, const BoundPoint& point, bool has_camera)
       : point_(point), has_camera_(has_camera), functor_(std::move(functor)) {
     set_num_residuals(kNumResiduals);
@@ -62,10 +65,12 @@ class WarpedPointCost final : public ceres::CostFunction {
     }
   }
 
+  // Computes the residuals and, where asked for, the Jacobians. Returns false if the functor fails.
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
     const int num_nodes = point_.num_nodes();
+    // The warped point: into the map frame, then into the camera frame (Eq. 1).
     const Eigen::Vector3d point_in_map = WarpToMap(point_, parameters);
     const double* rotation = has_camera_ ? parameters[num_nodes] : nullptr;
     const double* translation = has_camera_ ? parameters[num_nodes + 1] : nullptr;
@@ -73,6 +78,8 @@ class WarpedPointCost final : public ceres::CostFunction {
         has_camera_ ? MapToCamera(rotation, translation, point_in_map) : point_in_map;
     if (jacobians == nullptr) return functor_(warped.data(), residuals);
 
+    // The chain rule: derivative by the warped point, then by the point in the map, then by the
+    // blocks.
     double derivative[3 * kNumResiduals];
     if (!EvaluatePointFunctor(functor_, warped.data(), residuals, derivative)) return false;
     const PointJacobian by_warped = ConstPointJacobianMap(derivative);
@@ -93,7 +100,9 @@ class WarpedPointCost final : public ceres::CostFunction {
   template <int kCols>
   using BlockJacobian = Eigen::Map<Eigen::Matrix<double, kNumResiduals, kCols, Eigen::RowMajor>>;
 
-  // Ceres passes a null pointer for every block that is held constant: each one is tested.
+  // Writes the Jacobians of the nodes: d residual / d A_j column c = w_j (v - g_j)_c d residual / d
+  // p, and d residual / d t_j = w_j d residual / d p. Ceres passes a null pointer for each block
+  // that is held constant, so each pointer is tested.
   void FillNodeJacobians(const PointJacobian& by_map, double** jacobians) const {
     for (int i = 0; i < point_.num_nodes(); ++i) {
       if (jacobians[i] == nullptr) continue;
@@ -106,6 +115,7 @@ class WarpedPointCost final : public ceres::CostFunction {
     }
   }
 
+  // Writes the Jacobians of R_c and T_c, unless Ceres passes a null pointer for them.
   static void FillCameraJacobians(const Eigen::Vector3d& p,
                                   const Eigen::Quaterniond& R_c,
                                   const PointJacobian& by_warped,
@@ -127,7 +137,7 @@ class WarpedPointCost final : public ceres::CostFunction {
 
 namespace internal {
 
-// Gathers the parameter blocks that AutoDiffCostFunction passes one by one.
+// Collects in an array the parameter blocks that AutoDiffCostFunction passes as separate arguments.
 template <typename Functor, bool kHasCamera>
 class AutoDiffWarpedPoint {
  public:
@@ -150,7 +160,7 @@ class AutoDiffWarpedPoint {
   BoundPoint point_;
 };
 
-// kNodeSize once for each element of a pack.
+// kNodeSize, repeated for each element of a parameter pack.
 template <std::size_t>
 inline constexpr int kSizeOfNode = kNodeSize;
 
@@ -175,8 +185,9 @@ ceres::CostFunction* CreateAutoDiffWarpedPoint(Functor functor,
 
 }  // namespace internal
 
-// The plain carrier, and the oracle for the fast one: auto-diff over all blocks at once.
-// Same parameter blocks; `point.num_nodes()` must be kNumNodes.
+// Returns the plain version, which the fast one is tested against: automatic differentiation with
+// respect to all blocks at once. It has the same parameter blocks. Fails a CHECK unless
+// `point.num_nodes()` is kNumNodes. The caller owns the result.
 template <int kNumNodes, typename Functor>
 ceres::CostFunction* CreateAutoDiffWarpedPointCost(Functor functor,
                                                    const BoundPoint& point,

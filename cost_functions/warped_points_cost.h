@@ -1,11 +1,11 @@
-// Functors on several warped points at once: lengths between them, areas, volumes.
+// Functors of several warped points at once, for lengths between points, areas and volumes:
 //
 //   struct MyFunctor {
 //     static constexpr int kNumResiduals = 1;
 //     template <typename T>
 //     bool operator()(const T* a, const T* b, const T* c, T* residuals) const;
 //   };
-// Each argument is a warped point as in warped_point_cost.h.
+// Each argument before the last is a warped point as in warped_point_cost.h.
 #ifndef CERES_ED_COST_FUNCTIONS_WARPED_POINTS_COST_H_
 #define CERES_ED_COST_FUNCTIONS_WARPED_POINTS_COST_H_
 
@@ -24,19 +24,22 @@
 
 namespace ceres_ed {
 
-// 3 kNumPoints-wide jets through the functor, chained with the warp's own Jacobian.
+// A cost function of a functor of kNumPoints warped points. It evaluates the functor with jets of
+// width 3 kNumPoints and applies the chain rule with the analytic Jacobian of the warp.
 // Parameter blocks: `num_nodes` nodes (12 each), then, with a camera, R_c (4) and T_c (3).
 template <typename Functor, int kNumPoints>
 class WarpedPointsCost final : public ceres::CostFunction {
  public:
   static constexpr int kNumResiduals = Functor::kNumResiduals;
 
-  // A point, and which of the parameter blocks each of its nodes is.
+  // A point, and for each of its nodes the index of the parameter block.
   struct Point {
     BoundPoint bound;
     std::array<int, kMaxBoundNodes> blocks;
   };
 
+  // Fails a CHECK on a block index that is not in [0, num_nodes). `has_camera` says whether the
+  // points are taken into the camera frame.
   WarpedPointsCost(Functor functor,
                    std::array<Point, kNumPoints> points,
                    int num_nodes,
@@ -58,6 +61,7 @@ class WarpedPointsCost final : public ceres::CostFunction {
     }
   }
 
+  // Computes the residuals and, where asked for, the Jacobians. Returns false if the functor fails.
   bool Evaluate(double const* const* parameters,
                 double* residuals,
                 double** jacobians) const override {
@@ -118,7 +122,8 @@ class WarpedPointsCost final : public ceres::CostFunction {
     return true;
   }
 
-  // Ceres passes a null pointer for every block that is held constant: each one is tested.
+  // Sets all Jacobians to zero. Ceres passes a null pointer for each block that is held constant,
+  // so each pointer is tested.
   void SetZero(double** jacobians) const {
     const std::vector<int>& sizes = this->parameter_block_sizes();
     for (std::size_t b = 0; b < sizes.size(); ++b) {
@@ -127,7 +132,8 @@ class WarpedPointsCost final : public ceres::CostFunction {
     }
   }
 
-  // Turns derivatives by points of the camera frame into such by points of the map.
+  // Adds to the Jacobians of R_c and T_c, and replaces the derivatives with respect to points in
+  // the camera frame by those with respect to points in the map frame.
   void AddCameraJacobians(double const* const* parameters,
                           const std::array<Eigen::Vector3d, kNumPoints>& in_map,
                           std::array<PointJacobian, kNumPoints>* by_warped,
@@ -146,6 +152,7 @@ class WarpedPointsCost final : public ceres::CostFunction {
     }
   }
 
+  // Adds the part of one point to the Jacobians of its nodes.
   static void AddNodeJacobians(const Point& point,
                                const PointJacobian& by_map,
                                double** jacobians) {

@@ -9,14 +9,15 @@
 
 namespace ceres_ed {
 
-// The axis-aligned box around `points`; empty (isEmpty()) for no points.
+// Returns the axis-aligned box around `points`. For no points it is empty (isEmpty()).
 inline Eigen::AlignedBox3d BoundingBox(const std::vector<Eigen::Vector3d>& points) {
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& point : points) box.extend(point);
   return box;
 }
 
-// The length of the diagonal of the bounding box, in the unit of the points; 0 for no points.
+// Returns the length of the diagonal of the bounding box, in the unit of the points; 0 for no
+// points.
 inline double Diagonal(const std::vector<Eigen::Vector3d>& points) {
   return points.empty() ? 0.0 : BoundingBox(points).diagonal().norm();
 }

@@ -14,7 +14,7 @@ struct BoxTreeItem {
 
 namespace {
 
-// Of the axis along which the items are spread farthest.
+// Returns the axis along which the items extend farthest.
 int WidestAxis(const BoxTreeItem* first, const BoxTreeItem* last) {
   std::array<double, 3> low = {first->at[0], first->at[1], first->at[2]};
   std::array<double, 3> high = low;
@@ -31,6 +31,7 @@ int WidestAxis(const BoxTreeItem* first, const BoxTreeItem* last) {
   return widest;
 }
 
+// Moves the items so that those before `middle` come first along the widest axis.
 void DivideAt(BoxTreeItem* first, BoxTreeItem* middle, BoxTreeItem* last) {
   const int axis = WidestAxis(first, last);
   std::nth_element(first, middle, last, [axis](const BoxTreeItem& a, const BoxTreeItem& b) {
@@ -47,7 +48,7 @@ BoxTree::BoxTree(const std::vector<Eigen::Vector3d>& centers, int leaf_size)
   std::vector<BoxTreeItem> items(centers.size());
   for (std::size_t i = 0; i < centers.size(); ++i) {
     items[i].index = static_cast<int>(i);
-    // What is not a number has no place in an order.
+    // A value that is not a number can't be sorted.
     for (int axis = 0; axis < 3; ++axis) {
       items[i].at[axis] = std::isfinite(centers[i][axis]) ? centers[i][axis] : 0.0;
     }
@@ -57,7 +58,7 @@ BoxTree::BoxTree(const std::vector<Eigen::Vector3d>& centers, int leaf_size)
   for (std::size_t i = 0; i < items.size(); ++i) order_[i] = items[i].index;
 }
 
-// Divides the leaves evenly among up to four children, each by the median twice.
+// Divides the leaves evenly among up to four children: by the median, and each half by its median.
 int BoxTree::Divide(int first_leaf, int last_leaf, BoxTreeItem* items) {
   const int node = static_cast<int>(nodes_.size());
   nodes_.emplace_back();
@@ -87,6 +88,7 @@ void BoxTree::SetBox(Node* node, int place, const Box& box) {
   }
 }
 
+// Sets the boxes of a node's children, from the leaves up, and returns the box of the node.
 BoxTree::Box BoxTree::FitNode(int node, const std::vector<Box>& boxes) {
   Box all;
   for (int i = 0; i < kWidth; ++i) {

@@ -1,4 +1,4 @@
-// A tree of boxes, four to a node, that is searched with vector instructions.
+// A tree of boxes with four boxes in each node, which is searched with vector instructions.
 #ifndef CERES_ED_GEOMETRY_BOX_TREE_H_
 #define CERES_ED_GEOMETRY_BOX_TREE_H_
 
@@ -13,17 +13,18 @@ namespace ceres_ed {
 
 struct BoxTreeItem;
 
-// Items (triangles) in leaves of at most `leaf_size`, under nodes of at most four boxes. A box need
-// only be no smaller than what is in it.
+// A tree over items (triangles). Each leaf has at most `leaf_size` items, and each inner node has
+// at most four children, each with a box. A box must contain everything below it; it may be larger.
 class BoxTree {
  public:
   static constexpr int kWidth = kLanes;
 
+  // A box with sides along the axes. It is empty by default.
   struct Box {
     Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
     Eigen::Vector3d high = Eigen::Vector3d::Constant(-std::numeric_limits<double>::infinity());
 
-    // Coordinates that are not a number are left out.
+    // Makes the box contain `point`. Coordinates that are not a number are ignored.
     void Extend(const Eigen::Vector3d& point) {
       for (int axis = 0; axis < 3; ++axis) {
         if (point[axis] < low[axis]) low[axis] = point[axis];
@@ -32,26 +33,28 @@ class BoxTree {
     }
   };
 
-  // `centers` has a point for every item, by which they are divided. Boxes are empty until Fit().
+  // Builds the tree. `centers` has one point for each item, by which the items are divided. All
+  // boxes are empty until Fit() is called.
   BoxTree(const std::vector<Eigen::Vector3d>& centers, int leaf_size);
 
-  // Leaf i has the items order()[i * leaf_size] to order()[(i + 1) * leaf_size]; the last leaf may
-  // have fewer.
+  // The items by leaf: leaf i has the items order()[i * leaf_size] to order()[(i + 1) * leaf_size].
+  // The last leaf may have fewer.
   const std::vector<int>& order() const { return order_; }
   int num_leaves() const { return (static_cast<int>(order_.size()) + leaf_size_ - 1) / leaf_size_; }
 
-  // Makes all boxes fit; `boxes` has one a leaf.
+  // Sets all boxes of the tree. `boxes` has one box for each leaf.
   void Fit(const std::vector<Box>& boxes);
 
   // Calls visitor->Leaf(i) for every leaf whose box is at most sqrt(visitor->bound()) away from
-  // `query`, near ones first; the bound may shrink meanwhile. A little farther ones may be among
-  // them: rounding hides none that is equally near. Meant to be inlined into a function for each
-  // machine.
+  // `query`, near leaves first. The bound may shrink during the search. Leaves that are slightly
+  // farther away may be visited, too, so that rounding never hides a leaf that is equally near. The
+  // function is meant to be inlined into a function that is compiled for each machine (see
+  // for_each_machine.h).
   template <typename Visitor>
   [[gnu::always_inline]] inline void Visit(const Eigen::Vector3d& query, Visitor* visitor) const;
 
  private:
-  // A child is a node, or a leaf as ~leaf.
+  // A child is the index of a node, or ~leaf for a leaf.
   struct Node {
     Lanes low[3];
     Lanes high[3];
@@ -65,14 +68,15 @@ class BoxTree {
 
   int leaf_size_;
   std::vector<int> order_;
-  // The root is the first one; none where there is no item.
+  // The first node is the root. The list is empty if there are no items.
   std::vector<Node> nodes_;
 };
 
 template <typename Visitor>
 inline void BoxTree::Visit(const Eigen::Vector3d& query, Visitor* visitor) const {
   constexpr double kSlack = 1.0 - 1e-12;
-  // Four children a level at most, and leaves are divided evenly: 16 levels hold 2^32 leaves.
+  // A level has at most four children, and leaves are divided evenly, so 16 levels hold 2^32
+  // leaves.
   constexpr int kMaxPending = (kWidth - 1) * 17 + 1;
   struct Pending {
     double squared_distance;
@@ -94,12 +98,12 @@ inline void BoxTree::Visit(const Eigen::Vector3d& query, Visitor* visitor) const
     for (int axis = 0; axis < 3; ++axis) {
       const Lanes below = node.low[axis] - query[axis];
       const Lanes above = query[axis] - node.high[axis];
-      // At most one of both is positive.
+      // At most one of the two is positive.
       const Lanes gap = Where(below > 0.0, below) + Where(above > 0.0, above);
       squared += gap * gap;
     }
     squared *= kSlack;
-    // The nearest on top.
+    // Put the children on the stack so that the nearest is on top.
     const int bottom = size;
     for (int i = 0; i < node.num_children; ++i) {
       if (squared[i] > visitor->bound()) continue;

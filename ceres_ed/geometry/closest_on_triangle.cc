@@ -9,10 +9,11 @@
 namespace ceres_ed {
 namespace {
 
-// A triangle this much flatter than wide is closest with its edges, and its plane is unknown.
+// A triangle flatter than this ratio of height to width has no well-defined plane. The closest
+// point is then searched on its edges.
 constexpr double kFlatness = 1e-10;
 
-// The fraction of the way from a to b of the point closest to `query`, in [0, 1].
+// Returns where the point of segment a b closest to `query` lies: 0 at a, 1 at b.
 double ClosestFraction(const Eigen::Vector3d& query,
                        const Eigen::Vector3d& a,
                        const Eigen::Vector3d& b) {
@@ -21,6 +22,7 @@ double ClosestFraction(const Eigen::Vector3d& query,
   return std::clamp((query - a).dot(b - a) / squared_length, 0.0, 1.0);
 }
 
+// Returns the barycentric coordinates of the closest point on the three edges.
 Eigen::Vector3d ClosestOnEdges(const Eigen::Vector3d& query,
                                const std::array<const Eigen::Vector3d*, 3>& corners) {
   Eigen::Vector3d best = Eigen::Vector3d::UnitX();
@@ -40,7 +42,8 @@ Eigen::Vector3d ClosestOnEdges(const Eigen::Vector3d& query,
 
 }  // namespace
 
-// By the Voronoi regions of the triangle (Ericson, Real-Time Collision Detection, 5.1.5).
+// Finds the Voronoi region of the triangle in which the query lies (Ericson, Real-Time Collision
+// Detection, 5.1.5).
 Eigen::Vector3d ClosestPointOnTriangle(const Eigen::Vector3d& query,
                                        const Eigen::Vector3d& a,
                                        const Eigen::Vector3d& b,

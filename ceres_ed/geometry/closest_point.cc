@@ -16,34 +16,36 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kLeafSize = kLanes;
-// Triangles this much flatter than wide are not judged by bounds: their normals have too few
-// digits.
+// For triangles flatter than this ratio of height to width, the bounds below are not used, since
+// their normals are not accurate enough.
 constexpr double kBoundFlatness = 1e-4;
-// Bounds of distances are compared with room for rounding: of themselves, and of the size of the
-// largest triangle (squared both).
+// Bounds of squared distances are compared with some tolerance for rounding errors: a fraction of
+// the bound itself, and a fraction of the squared size of the largest triangle.
 constexpr double kBoundSlack = 1.0 - 1e-6;
 constexpr double kBoundRoom = 1e-18;
-// Of a triangle's corners and the query: how well it is known which side of an edge the query is.
+// The relative accuracy, with respect to the triangle's corners and the query, to which it is known
+// on which side of an edge the query lies.
 constexpr double kSideRoom = 1e-13;
 
-// The triangles of a leaf side by side: corner a, and what leads from it to b and c. Places without
-// a triangle are not a number.
+// The triangles of a leaf, one in each lane: corner a, and the vectors from a to b and c. Lanes
+// without a triangle hold values that are not a number.
 struct TriangleLeaf {
   Lanes a[3];
   Lanes ab[3];
   Lanes ac[3];
-  // 1, or 0 where a bound must not be believed.
+  // 1, or 0 where the bound of a triangle must not be used.
   Lanes trust;
 };
 
 struct TriangleItem {
   Eigen::Vector3d a, b, c;
   int index;
-  // Bit i: the edge opposite to corner i is a border; bit 3 + i: corner i is on a border.
+  // Bit i is set if the edge opposite to corner i is a border; bit 3 + i is set if corner i is on a
+  // border.
   std::uint8_t border;
 };
 
-// The nearest triangle so far.
+// The nearest triangle that the search has found so far.
 struct Best {
   double squared_distance;
   int item = -1;
@@ -51,7 +53,8 @@ struct Best {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-// Exact, and the same on every machine.
+// Computes the exact distance to one triangle and updates `best`. It is not inlined, so that it is
+// compiled only once and gives the same result on every machine.
 [[gnu::noinline]] void TryTriangle(const TriangleItem* items,
                                    int i,
                                    const Eigen::Vector3d& query,
@@ -69,7 +72,7 @@ struct Best {
   *best = {distance, i, barycentric, position};
 }
 
-// Three coordinates of what is in each lane.
+// One vector in each lane.
 struct LaneVector {
   Lanes x, y, z;
 };
@@ -78,7 +81,7 @@ struct LaneVector {
   return u.x * v.x + u.y * v.y + u.z * v.z;
 }
 
-// Of the distance from a place (relative to the start of an edge) to the edge.
+// Returns the squared distance from a point (given relative to the start of an edge) to the edge.
 [[gnu::always_inline]] inline Lanes SquaredToEdge(const LaneVector& place,
                                                   const LaneVector& edge,
                                                   const Lanes& projection,
@@ -91,8 +94,9 @@ struct LaneVector {
   return Dot(gap, gap);
 }
 
-// Squared distances that are no larger than the true ones, up to kBoundSlack and kBoundRoom: to the
-// plane over a triangle, and a little around it, and to the nearest edge elsewhere.
+// Returns lower bounds of the squared distances to the triangles, up to kBoundSlack and kBoundRoom.
+// If the query lies above a triangle or slightly beside it, the bound is the distance to the plane
+// of the triangle; otherwise it is the distance to the nearest edge.
 [[gnu::always_inline]] inline Lanes BoundDistances(const TriangleLeaf& leaf,
                                                    const Eigen::Vector3d& query) {
   const LaneVector ab = {leaf.ab[0], leaf.ab[1], leaf.ab[2]};
@@ -110,7 +114,7 @@ struct LaneVector {
   const Lanes to_bc = SquaredToEdge(bq, bc, Dot(bq, bc), Dot(bc, bc));
   const Lanes to_a = Select(to_ab < to_ac, to_ab, to_ac);
   const Lanes to_edges = Select(to_a < to_bc, to_a, to_bc);
-  // Barycentric coordinates, times n_n.
+  // v and w are the barycentric coordinates of b and c, multiplied by n_n.
   const Lanes v = c_c * q_b - b_c * q_c;
   const Lanes w = b_b * q_c - b_c * q_b;
   const Lanes least = -kSideRoom * (b_b + c_c) * (b_b + c_c + Dot(aq, aq));
@@ -130,7 +134,7 @@ struct TriangleVisitor {
   [[gnu::always_inline]] void Leaf(int leaf) {
     const Lanes bounds = BoundDistances(leaves[leaf], query);
     for (int i = 0; i < kLeafSize; ++i) {
-      // False for places without a triangle, which are not a number.
+      // The comparison is false for lanes without a triangle, which are not a number.
       if (bounds[i] <= best->squared_distance + room) {
         TryTriangle(items, leaf * kLeafSize + i, query, best);
       }
@@ -165,7 +169,7 @@ struct SurfaceIndex::Impl {
     }
   }
 
-  // Brings the items into the order of a tree.
+  // Builds the tree, and sorts the items by leaf.
   void Build() {
     std::vector<Eigen::Vector3d> centers;
     centers.reserve(items.size());
@@ -200,7 +204,7 @@ struct SurfaceIndex::Impl {
     tree->Fit(boxes);
   }
 
-  // Returns the square of the longest edge.
+  // Writes a triangle into a lane of its leaf, and returns the square of its longest edge.
   static double SetPlace(const TriangleItem& item, int place, TriangleLeaf* leaf) {
     const Eigen::Vector3d ab = item.b - item.a;
     const Eigen::Vector3d ac = item.c - item.a;
@@ -248,13 +252,13 @@ struct SurfaceIndex::Impl {
 
   const PointCloud& cloud;
   std::vector<TriangleItem> items;
-  // -1 for triangles of no item.
+  // The item of each triangle of the cloud; -1 for triangles that are not in the index.
   std::vector<int> item_of_triangle;
   std::optional<BoxTree> tree;
-  // Beside `items`, four a leaf.
+  // The same triangles as in `items`, four in each leaf.
   std::vector<TriangleLeaf> leaves;
   double room = 0.0;
-  // Only where there is no triangle.
+  // Used only if the cloud has no triangles.
   std::optional<KdTree> point_tree;
 };
 

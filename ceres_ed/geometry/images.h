@@ -1,4 +1,5 @@
-// Pictures of a depth camera. Pixel (0, 0) is the upper left one, and integers are pixel centres.
+// Images of a depth camera. Pixel (0, 0) is the upper left one, and integer coordinates are pixel
+// centres.
 #ifndef CERES_ED_GEOMETRY_IMAGES_H_
 #define CERES_ED_GEOMETRY_IMAGES_H_
 
@@ -9,7 +10,7 @@
 
 namespace ceres_ed {
 
-// A grid of pixels, row by row.
+// A grid of pixels that owns its memory, stored row by row.
 template <typename Pixel>
 class Image {
  public:
@@ -23,12 +24,14 @@ class Image {
   int width() const { return width_; }
   int height() const { return height_; }
   bool empty() const { return pixels_.empty(); }
+  // Returns whether column u and row v are inside the image.
   bool Contains(int u, int v) const { return u >= 0 && v >= 0 && u < width_ && v < height_; }
 
-  // Column u, row v; both inside.
+  // The pixel in column u and row v, which must be inside the image.
   const Pixel& operator()(int u, int v) const { return pixels_[Index(u, v)]; }
   Pixel& operator()(int u, int v) { return pixels_[Index(u, v)]; }
 
+  // All pixels, row by row.
   const std::vector<Pixel>& pixels() const { return pixels_; }
   std::vector<Pixel>& pixels() { return pixels_; }
 
@@ -43,8 +46,8 @@ class Image {
   std::vector<Pixel> pixels_;
 };
 
-// A look at pixels that belong to somebody else, row by row without gaps: an Image, or what a
-// camera or an array has in memory. Good for as long as they are.
+// A read-only view of pixels that somebody else owns, stored row by row without gaps. They may
+// belong to an Image, or be the memory of a camera or of an array. The view must not outlive them.
 template <typename Pixel>
 class ImageView {
  public:
@@ -54,7 +57,7 @@ class ImageView {
       : width_(width), height_(height), pixels_(pixels) {}
   ImageView(const Image<Pixel>& image)  // NOLINT(google-explicit-constructor)
       : ImageView(image.pixels().data(), image.width(), image.height()) {}
-  // Null: empty.
+  // A null pointer gives an empty view.
   ImageView(const Image<Pixel>* image)  // NOLINT(google-explicit-constructor)
       : ImageView(image != nullptr ? ImageView(*image) : ImageView()) {}
 
@@ -63,7 +66,7 @@ class ImageView {
   bool empty() const { return width_ == 0 || height_ == 0; }
   const Pixel* pixels() const { return pixels_; }
 
-  // Column u, row v; both inside.
+  // The pixel in column u and row v, which must be inside the image.
   const Pixel& operator()(int u, int v) const {
     return pixels_[static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) +
                    static_cast<std::size_t>(u)];
@@ -75,13 +78,13 @@ class ImageView {
   const Pixel* pixels_ = nullptr;
 };
 
-// Depth along the optical axis, metres; 0 (or what is no number) where none was measured.
+// The depth along the optical axis in metres. It is 0 (or not a number) where none was measured.
 using DepthImage = Image<float>;
 using DepthView = ImageView<float>;
-// Red, green, blue.
+// Red, green and blue, each in 0 to 255.
 using ColorImage = Image<std::array<std::uint8_t, 3>>;
 using ColorView = ImageView<std::array<std::uint8_t, 3>>;
-// Nonzero where a pixel counts.
+// Nonzero for pixels that are used.
 using MaskImage = Image<std::uint8_t>;
 
 }  // namespace ceres_ed

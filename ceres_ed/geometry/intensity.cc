@@ -13,12 +13,14 @@
 namespace ceres_ed {
 namespace {
 
-// Of squared sines and of squared spreads: less is a line, across which nothing is known.
+// A limit on squared sines of angles and on ratios of variances. Below it, the points lie on a
+// line, and the gradient across that line is unknown.
 constexpr double kFlat = 1e-10;
 
 const Eigen::Vector3d kUnknown =
     Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
 
+// Returns the mean gradient of the triangles at each point, weighted by area.
 std::vector<Eigen::Vector3d> MeshGradients(const PointCloud& cloud) {
   std::vector<Eigen::Vector3d> sums(cloud.size(), Eigen::Vector3d::Zero());
   std::vector<double> areas(cloud.size(), 0.0);
@@ -47,7 +49,7 @@ std::vector<Eigen::Vector3d> MeshGradients(const PointCloud& cloud) {
   return sums;
 }
 
-// The slope of intensity over the neighbours, along the two tangents of `normal`.
+// Returns the slope of the intensity over the neighbours, along two tangents of the surface.
 Eigen::Vector3d SlopeOfNeighbors(const PointCloud& cloud,
                                  int point,
                                  const std::vector<Neighbor>& neighbors) {
@@ -55,7 +57,8 @@ Eigen::Vector3d SlopeOfNeighbors(const PointCloud& cloud,
   if (normal.isZero(0.0) || !std::isfinite(cloud.intensities[point])) return kUnknown;
   const Eigen::Vector3d u = normal.unitOrthogonal();
   const Eigen::Vector3d v = normal.cross(u);
-  // Through the mean rather than through the point: noise of the one counts no more than another's.
+  // The fitted plane goes through the mean and not through the point, so that the noise of the
+  // point has no more weight than that of its neighbours.
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
   int count = 0;

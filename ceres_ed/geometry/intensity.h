@@ -12,27 +12,30 @@
 
 namespace ceres_ed {
 
-// Neighbours of a bare point that its gradient is fitted to, itself included.
+// The number of neighbours to which the gradient at a point without triangles is fitted. The point
+// itself is one of them.
 inline constexpr int kGradientNeighbors = 12;
 
-// Brightness at a place of a surface.
+// The brightness at a point of a surface.
 struct Intensity {
-  // In [0, 1]; NaN where it isn't known.
+  // The brightness in [0, 1]; NaN where it is unknown.
   double value = std::numeric_limits<double>::quiet_NaN();
-  // Along the tangent plane, per unit of length; zero where `value` isn't known.
+  // The gradient along the tangent plane, per unit of length; zero where `value` is unknown.
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
 };
 
-// The gradient, in the plane of triangle a, b, c, of what is linear on it and has `values` at its
-// corners. NaN where a value is, or where the triangle has no area.
+// Returns the gradient, in the plane of triangle a, b, c, of the linear function that has `values`
+// at the corners. It is NaN if a value is NaN or if the triangle has no area.
 Eigen::Vector3d GradientOnTriangle(const Eigen::Vector3d& a,
                                    const Eigen::Vector3d& b,
                                    const Eigen::Vector3d& c,
                                    const std::array<double, 3>& values);
 
-// The gradient at each point of `cloud`, which has intensities and normals: the mean over the
-// triangles at it by area, or on bare points that of the plane through the brightness of its
-// nearest neighbours, by least squares along the tangent plane. NaN where it isn't determined.
+// Returns the gradient at each point of `cloud`, per unit of length. The cloud must have
+// intensities and normals. On a mesh it is the mean over the triangles at the point, weighted by
+// area. Without triangles it is the gradient of a plane that is fitted by least squares to the
+// brightness of the nearest neighbours along the tangent plane. It is NaN where it is not
+// determined.
 std::vector<Eigen::Vector3d> IntensityGradients(const PointCloud& cloud);
 
 }  // namespace ceres_ed

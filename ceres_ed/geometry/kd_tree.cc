@@ -9,7 +9,8 @@
 namespace ceres_ed {
 namespace {
 
-// Distances of subtrees carry rounding errors: a little slack keeps equally far points in the race.
+// Distances to subtrees have rounding errors. This tolerance keeps points that are equally far
+// among the candidates.
 constexpr double kBoundSlack = 1.0 + 1e-12;
 
 #if NANOFLANN_VERSION >= 0x150
@@ -18,6 +19,7 @@ using SearchOptions = nanoflann::SearchParameters;
 using SearchOptions = nanoflann::SearchParams;
 #endif
 
+// The interface through which nanoflann reads the points.
 struct PointAdaptor {
   const std::vector<Eigen::Vector3d>& points;
 
@@ -29,8 +31,8 @@ struct PointAdaptor {
   }
 };
 
-// What nanoflann compares distances with, strictly: above zero, so that equal points at the query
-// are all seen.
+// Returns the bound with which nanoflann compares distances. nanoflann tests for "less than", so
+// the bound is above zero: points equal to the query are then all found.
 double SearchBound(double squared_distance) {
   return std::max(squared_distance * kBoundSlack, std::numeric_limits<double>::min());
 }
@@ -39,8 +41,9 @@ bool Before(double distance_a, int index_a, const Neighbor& b) {
   return distance_a < b.squared_distance || (distance_a == b.squared_distance && index_a < b.index);
 }
 
-// nanoflann's result sets keep whichever of two equally far points they meet first; these three
-// prefer the lowest index, so that the answer does not depend on the shape of the tree.
+// Of two equally far points, the result sets of nanoflann keep the one that they meet first. The
+// following three prefer the lowest index, so that the result does not depend on the shape of the
+// tree.
 class NearestSet {
  public:
   using DistanceType = double;
@@ -158,7 +161,7 @@ Neighbor KdTree::NearestWithin(const Eigen::Vector3d& query, double max_distance
   double bound = max_distance * max_distance;
   if (hint >= 0) {
     const double squared_distance = (impl_->adaptor.points[hint] - query).squaredNorm();
-    // Slack, for nanoflann sums up the same distance in another order.
+    // The tolerance is needed because nanoflann adds the terms of a distance in another order.
     if (squared_distance * kBoundSlack < bound) bound = squared_distance * kBoundSlack;
   }
   NearestSet result(bound);

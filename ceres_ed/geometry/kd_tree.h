@@ -1,4 +1,4 @@
-// Exact nearest neighbours among points in space.
+// Exact search for nearest neighbours among points in space.
 #ifndef CERES_ED_GEOMETRY_KD_TREE_H_
 #define CERES_ED_GEOMETRY_KD_TREE_H_
 
@@ -10,7 +10,7 @@
 
 namespace ceres_ed {
 
-// A point found by a search; index -1 (and an infinite distance) when there is none.
+// A point found by a search. If there is none, the index is -1 and the distance is infinite.
 struct Neighbor {
   int index = -1;
   double squared_distance = std::numeric_limits<double>::infinity();
@@ -18,9 +18,10 @@ struct Neighbor {
   bool found() const { return index >= 0; }
 };
 
-// A search tree over finite `points`, kept by reference: they must outlive the tree and stay as
-// they are between updates. Every search is exact, breaks ties by the lowest index, finds nothing
-// for a query that is not finite, and may run on any number of threads at once.
+// A search tree over `points`, which must be finite. The tree refers to the points: they must
+// outlive it and must not change except before an Update(). Every search is exact, breaks ties by
+// the lowest index, and finds nothing for a query that is not finite. Any number of threads may
+// search at the same time.
 class KdTree {
  public:
   explicit KdTree(const std::vector<Eigen::Vector3d>& points);
@@ -28,29 +29,30 @@ class KdTree {
   KdTree(KdTree&&) noexcept;
   KdTree& operator=(KdTree&&) noexcept;
 
-  // Call it after points have moved: from then on searches find them where they are. Their number
-  // and the vector are the same. No search may run meanwhile.
+  // Rebuilds the tree after points have moved. The vector of points must be the same, and have the
+  // same size. No search may run at the same time.
   void Update();
 
-  // The points as they lie in the tree: near in it is near in space. Searches in this order find
-  // in the cache what the one before has read.
+  // Returns the indices of the points in the order of the tree. Points that are near in this order
+  // are near in space, so searches in this order use the cache well.
   const std::vector<int>& order() const;
 
-  // The point nearest to `query`; none when the tree is empty.
+  // Returns the point nearest to `query`; none when the tree is empty.
   Neighbor Nearest(const Eigen::Vector3d& query) const;
 
-  // The nearest point that is at most `max_distance` away; none when there is no such point. `hint`
-  // is a point that is thought to be near, or -1: the nearer it is the faster is the search, and
-  // what is found doesn't depend on it.
+  // Returns the nearest point that is at most `max_distance` away; none when there is no such
+  // point. `hint` is a point that is expected to be near, or -1. A near hint makes the search
+  // faster; the result does not depend on it.
   Neighbor NearestWithin(const Eigen::Vector3d& query, double max_distance, int hint = -1) const;
 
-  // Writes the nearest min(k, number of points) neighbours to out[0..] by distance, then by index,
-  // and returns how many. `out` has room for k.
+  // Writes the nearest min(k, number of points) neighbours to out[0], out[1], ..., sorted by
+  // distance, then by index. Returns how many there are. `out` must have room for k.
   int KNearest(const Eigen::Vector3d& query, int k, Neighbor* out) const;
-  // The same; `out` is resized to the number found.
+  // Does the same; `out` is resized to the number found.
   int KNearest(const Eigen::Vector3d& query, int k, std::vector<Neighbor>* out) const;
 
-  // Writes every point at most `radius` away, by distance, then by index; returns how many.
+  // Writes all points that are at most `radius` away, sorted by distance, then by index. Returns
+  // how many there are.
   int RadiusSearch(const Eigen::Vector3d& query, double radius, std::vector<Neighbor>* out) const;
 
  private:

@@ -16,25 +16,29 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kCoefficients = 6;
-// Of the variance that a quadric leaves on a smooth surface when it takes twice the points: a term
-// of third order grows with the cube of the radius, its square with the cube of the number.
+// The factor by which the variance that a quadric leaves on a smooth surface grows when the number
+// of points is doubled. A term of third order grows with the cube of the radius, and its square
+// grows with the cube of the number of points.
 constexpr double kShapeGrowth = 8.0;
 
 using Basis = Eigen::Matrix<double, kCoefficients, 1>;
 
-// A noise so small against the width of the patch that the plane of the patch is known.
+// If the noise is smaller than this fraction of the width of a patch, the plane of the patch is
+// known well enough.
 constexpr double kNarrowNoise = 0.15;
 
 struct PatchFit {
-  // What the quadric leaves, per degree of freedom.
+  // The variance of the residual per degree of freedom.
   double variance = 0.0;
-  // Of the points along the longest axis of the patch.
+  // The standard deviation of the points along the longest axis of the patch.
   double spread = 0.0;
 };
 
+// Fits a quadric to the first `count` of `neighbors`, as a height over the plane of least spread.
 PatchFit FitQuadric(const std::vector<Eigen::Vector3d>& points,
                     const std::vector<int>& neighbors,
                     int count) {
+  // The axes of the patch: the eigenvectors of its scatter matrix. The first one is its normal.
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (int i = 0; i < count; ++i) mean += points[neighbors[i]];
   mean /= count;
@@ -44,10 +48,11 @@ PatchFit FitQuadric(const std::vector<Eigen::Vector3d>& points,
     scatter += offset * offset.transpose();
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
-  // In units of the spread, so that the powers of the basis are alike in size.
+  // Coordinates are divided by the spread, so that all powers in the basis have a similar size.
   const double scale = std::sqrt(axes.eigenvalues()[2] / count);
   if (!(scale > 0.0)) return {};
 
+  // Least squares by the normal equations.
   using Normal = Eigen::Matrix<double, kCoefficients, kCoefficients>;
   Normal lhs = Normal::Zero();
   Basis rhs = Basis::Zero();
@@ -68,7 +73,7 @@ PatchFit FitQuadric(const std::vector<Eigen::Vector3d>& points,
   return {std::max(0.0, left) * scale * scale / (count - kCoefficients), scale};
 }
 
-// The median of a chi-square variable per degree of freedom (Wilson and Hilferty).
+// Returns the median of a chi-square variable per degree of freedom (Wilson and Hilferty).
 double ChiSquareMedian(int freedom) { return std::pow(1.0 - 2.0 / (9.0 * freedom), 3); }
 
 // Finds neighbours over the edges of a mesh, or in space.
@@ -81,7 +86,8 @@ class Neighborhood {
     tree_ = std::make_unique<KdTree>(positions_);
   }
 
-  // The first `count` points around the position of rank `rank` in walk_order, itself first.
+  // Returns the first `count` points around the point of rank `rank` in walk_order, which is the
+  // first of them.
   const std::vector<int>& Around(int rank, int count) {
     found_.clear();
     if (tree_ != nullptr) {
@@ -89,7 +95,8 @@ class Neighborhood {
       for (const Neighbor& n : nearest_) found_.push_back(topology_.walk_order[n.index]);
       return found_;
     }
-    // Ring after ring. Nearest ones in space would be those with the least noise.
+    // Neighbours are collected ring by ring. The nearest neighbours in space would be those with
+    // the least noise.
     const int start = topology_.walk_order[rank];
     found_.push_back(start);
     mark_[start] = ++round_;
@@ -115,10 +122,11 @@ class Neighborhood {
 
 struct Estimate {
   double noise = 0.0;
-  // Of the larger patches.
+  // The median spread of the larger patches.
   double spread = 0.0;
 };
 
+// Estimates the noise from patches of `small` points and of twice as many.
 Estimate EstimateWith(const std::vector<Eigen::Vector3d>& points,
                       const SurfaceTopology& topology,
                       int samples,
@@ -140,6 +148,7 @@ Estimate EstimateWith(const std::vector<Eigen::Vector3d>& points,
     spreads.push_back(fit.spread);
   }
   if (spreads.empty()) return {};
+  // The variances are v_small = noise + shape and v_large = noise + kShapeGrowth * shape.
   const double v_small =
       Median(std::move(small_variances)) / ChiSquareMedian(small - kCoefficients);
   const double v_large =
@@ -160,7 +169,7 @@ double EstimateNoise(const std::vector<Eigen::Vector3d>& points,
   int neighbors = options.neighbors;
   for (int doubling = 0; doubling <= options.max_doublings; ++doubling, neighbors *= 2) {
     const Estimate estimate = EstimateWith(points, topology, options.samples, neighbors);
-    // No patch is that large.
+    // Stop if no patch has that many points.
     if (!(estimate.spread > 0.0)) break;
     noise = estimate.noise;
     if (noise < kNarrowNoise * estimate.spread) break;

@@ -1,4 +1,4 @@
-// How noisy a measured surface is.
+// An estimate of the noise of a measured surface.
 #ifndef CERES_ED_GEOMETRY_NOISE_ESTIMATE_H_
 #define CERES_ED_GEOMETRY_NOISE_ESTIMATE_H_
 
@@ -10,25 +10,29 @@
 
 namespace ceres_ed {
 
-// How noise is told from shape.
+// Options of EstimateNoise().
 struct NoiseOptions {
-  // Places where it is measured, spread over the cloud, >= 1.
+  // The number of points, spread over the cloud, at which the noise is measured. At least 1.
   int samples = 500;
-  // Neighbours that the smaller of two local fits takes, >= 8; the larger takes twice as many.
+  // The number of neighbours in the smaller of two local fits, at least 8. The larger fit has twice
+  // as many.
   int neighbors = 20;
-  // Both are doubled, up to this often, while the noise isn't small against the larger fit's width.
+  // How often both numbers may be doubled, at least 0. They are doubled while the noise is not
+  // small compared with the width of the larger fit.
   int max_doublings = 3;
 };
 
-// The standard deviation of the noise of `points` across their surface, in their unit; 0 for a
-// smooth surface, and where there are too few points to tell.
+// Returns the standard deviation of the noise of `points` across their surface, in their unit. It
+// is 0 for a smooth surface, and if there are too few points. `topology` is the topology of a cloud
+// of `points`.
 //
-// Around each sample a quadric (six coefficients over the plane of least spread) is fitted to its
-// neighbours (along the edges; the nearest ones of bare points), and to twice as many. What is left
-// over has the variance of the noise plus what a quadric can't follow, which grows with the cube of
-// the number of points: the two sizes tell them apart. The median over the samples is that of a
-// chi-square variable and is divided by it. Noise along one direction counts with its part across
-// the surface. Points at the same position count once. `topology` is that of a cloud of `points`.
+// A quadric (six coefficients over the plane of least spread) is fitted to the neighbours of each
+// sample, and another one to twice as many neighbours. Neighbours are found along the edges of a
+// mesh, or in space without a mesh. The residual of such a fit has the variance of the noise, plus
+// the part of the shape that a quadric can't represent. That part grows with the cube of the number
+// of points, so the two sizes tell noise and shape apart. The median over the samples is divided by
+// the median of a chi-square variable. Noise along one direction counts with its component across
+// the surface. Points at the same position count once.
 double EstimateNoise(const std::vector<Eigen::Vector3d>& points,
                      const SurfaceTopology& topology,
                      const NoiseOptions& options = {});

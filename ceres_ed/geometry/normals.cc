@@ -17,12 +17,12 @@
 namespace ceres_ed {
 namespace {
 
-// Neighbours spread over a plane when the second spread is at least this fraction of the first
-// (variances); below it they lie on a line.
+// Neighbours span a plane when their second largest variance is at least this fraction of the
+// largest one. Below it they lie on a line.
 constexpr double kMinPlanarity = 1e-6;
 
 struct NeighborEdge {
-  // 1 - |n_a . n_b|.
+  // The cost 1 - |n_a . n_b|.
   double cost;
   int a;
   int b;
@@ -33,6 +33,7 @@ struct NeighborEdge {
   }
 };
 
+// Disjoint sets of indices (union-find).
 class DisjointSets {
  public:
   explicit DisjointSets(int size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0); }
@@ -40,7 +41,7 @@ class DisjointSets {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;
   }
-  // False when both were in one set already.
+  // Joins the sets of a and b. Returns false if they are in the same set already.
   bool Join(int a, int b) {
     a = Find(a);
     b = Find(b);
@@ -53,6 +54,7 @@ class DisjointSets {
   std::vector<int> parent_;
 };
 
+// Returns the direction of least spread of the neighbours, or zero if they do not span a plane.
 Eigen::Vector3d PlaneNormal(const std::vector<Eigen::Vector3d>& points,
                             const Neighbor* neighbors,
                             int count) {
@@ -72,7 +74,8 @@ Eigen::Vector3d PlaneNormal(const std::vector<Eigen::Vector3d>& points,
   return eigen.eigenvectors().col(0);
 }
 
-// The edges of the minimum spanning forest, as links both ways.
+// Returns the minimum spanning forest of the neighbour graph: for each point, the points to which
+// it is linked.
 std::vector<std::vector<int>> SpanningForest(const std::vector<Eigen::Vector3d>& normals,
                                              const std::vector<Neighbor>& neighbors,
                                              const std::vector<int>& counts,
@@ -98,6 +101,7 @@ std::vector<std::vector<int>> SpanningForest(const std::vector<Eigen::Vector3d>&
   return links;
 }
 
+// Makes the signs of the normals agree in each tree of the forest, and points them outward.
 void OrientNormals(const std::vector<Eigen::Vector3d>& points,
                    const std::vector<std::vector<int>>& forest,
                    std::vector<Eigen::Vector3d>* normals) {
@@ -105,6 +109,7 @@ void OrientNormals(const std::vector<Eigen::Vector3d>& points,
   std::vector<char> visited(num_points, 0);
   for (int start = 0; start < num_points; ++start) {
     if (visited[start]) continue;
+    // Walk through a tree of the forest, and turn each normal to the side of the one before it.
     std::vector<int> part = {start};
     visited[start] = 1;
     Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
@@ -145,7 +150,7 @@ std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud) {
   }
   for (std::size_t p = 0; p < normals.size(); ++p) {
     if (representative[p] != static_cast<int>(p)) {
-      // The representative is lower, so it is done.
+      // The representative has a lower index, so its normal is computed already.
       normals[p] = normals[representative[p]];
       continue;
     }
@@ -159,6 +164,7 @@ std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>&
                                              int neighbors,
                                              int num_threads) {
   CHECK_GE(neighbors, 3);
+  // Fit a plane to the neighbours of each point.
   const KdTree tree(points);
   std::vector<Neighbor> nearest(points.size() * neighbors);
   std::vector<int> counts(points.size(), 0);
@@ -170,6 +176,7 @@ std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>&
       normals[p] = PlaneNormal(points, row, counts[p]);
     }
   });
+  // Choose the signs.
   OrientNormals(points, SpanningForest(normals, nearest, counts, neighbors), &normals);
   return normals;
 }

@@ -1,4 +1,4 @@
-// Normals of meshes and of bare points.
+// Normals of meshes and of points without triangles.
 #ifndef CERES_ED_GEOMETRY_NORMALS_H_
 #define CERES_ED_GEOMETRY_NORMALS_H_
 
@@ -10,25 +10,28 @@
 
 namespace ceres_ed {
 
-// Neighbours of a point in EstimateNormals, itself included.
+// The number of neighbours of a point in EstimateNormals(), the point itself included.
 inline constexpr int kNormalNeighbors = 12;
 
-// One unit normal a point from the triangles, weighted by their angle at the point and shared by
-// all points at the same position; zero for points in no triangle of positive area.
+// Returns one unit normal for each point, from the triangles at it weighted by their angle. All
+// points at the same position share a normal. It is zero for points in no triangle of positive
+// area.
 std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud);
 
-// One unit normal a point: the direction of least spread of its `neighbors` nearest points (itself
-// included, at least 3). Zero where these do not span a plane. Signs are a guess: they agree along
-// a minimum spanning tree of the neighbour graph with edges weighted by 1 - |n_i . n_j| (Hoppe et
-// al. 1992), and each connected part points outward by the sign of the sum of (p - c) . n over its
-// points with c their centroid. Right for closed shapes; for an open sheet it is the convex side.
+// Returns one unit normal for each point: the direction in which its `neighbors` nearest points
+// (itself included, at least 3) spread least. It is zero where these points do not span a plane.
+//
+// The signs are a guess. They agree along a minimum spanning tree of the neighbour graph, whose
+// edges have the weight 1 - |n_i . n_j| (Hoppe et al. 1992). Each connected part points outward by
+// the sign of the sum of (p - c) . n over its points, where c is their centroid. This is right for
+// closed shapes; on an open sheet the normals point to the convex side.
 std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>& points,
                                              int neighbors = kNormalNeighbors,
                                              int num_threads = 1);
 
-// Fills in `cloud->normals` unless there is one for each point already: from the triangles where
-// there are some (normals_oriented = true), else by EstimateNormals (normals_oriented = false:
-// match them up to sign).
+// Computes `cloud->normals` unless each point has a normal already. With triangles they come from
+// ComputeVertexNormals() (normals_oriented = true). Otherwise they come from EstimateNormals()
+// (normals_oriented = false: compare them up to sign).
 void EnsureNormals(PointCloud* cloud, int num_threads = 1);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// The pinhole camera: x to the right, y down, z into the scene.
+// The pinhole camera. Its x axis points to the right, y down, and z into the scene.
 #ifndef CERES_ED_GEOMETRY_PINHOLE_CAMERA_H_
 #define CERES_ED_GEOMETRY_PINHOLE_CAMERA_H_
 
@@ -8,7 +8,7 @@
 
 namespace ceres_ed {
 
-// Intrinsics of a rectified picture, in pixels; integers are pixel centres.
+// The intrinsics of a rectified image, in pixels. Integer coordinates are pixel centres.
 struct PinholeCamera {
   double fx = 0.0;
   double fy = 0.0;
@@ -17,16 +17,17 @@ struct PinholeCamera {
   int width = 0;
   int height = 0;
 
-  // False, with the value and what was expected in `error`, unless every number is finite, focal
-  // lengths are positive and the picture has pixels.
+  // Returns true if every number is finite, the focal lengths are positive, and width and height
+  // are at least 1. Otherwise returns false and writes to `error` the value and what was expected.
   bool IsValid(std::string* error) const;
 
-  // The pixel of a point with z > 0, camera frame.
+  // Returns the pixel coordinates of a point in the camera frame, which must have z > 0.
   Eigen::Vector2d Project(const Eigen::Vector3d& point) const {
     return {fx * point.x() / point.z() + cx, fy * point.y() / point.z() + cy};
   }
 
-  // The point `depth` along the optical axis behind pixel (u, v), camera frame, unit of `depth`.
+  // Returns the point in the camera frame that is behind pixel (u, v) at `depth` along the optical
+  // axis, in the unit of `depth`.
   Eigen::Vector3d BackProject(double u, double v, double depth) const {
     return {(u - cx) / fx * depth, (v - cy) / fy * depth, depth};
   }

@@ -1,5 +1,5 @@
-// Points with optional normals, brightness and faces: every surface that the library reads, warps
-// or fits.
+// Points with optional normals, brightness and triangles. Every surface that the library reads,
+// warps or fits has this type.
 #ifndef CERES_ED_GEOMETRY_POINT_CLOUD_H_
 #define CERES_ED_GEOMETRY_POINT_CLOUD_H_
 
@@ -11,17 +11,20 @@
 
 namespace ceres_ed {
 
-// A mesh where `triangles` is not empty, else bare points. Lengths are in the unit of the input.
+// A mesh if `triangles` is not empty, otherwise points without triangles. Lengths are in the unit
+// of the input.
 struct PointCloud {
-  // One position a point, all finite.
+  // The positions of the points. All are finite.
   std::vector<Eigen::Vector3d> points;
-  // Empty, or one unit vector a point; zero where no normal could be had (an isolated vertex).
+  // Empty, or one unit vector for each point. It is zero where the normal is unknown (for example
+  // at an isolated vertex).
   std::vector<Eigen::Vector3d> normals;
-  // False when the normals are known only up to sign (estimated on bare points).
+  // False if the normals are known only up to sign (when they were estimated without triangles).
   bool normals_oriented = true;
-  // Empty, or the brightness of each point in [0, 1]; NaN where it isn't known.
+  // Empty, or the brightness of each point in [0, 1]. It is NaN where it is unknown.
   std::vector<double> intensities;
-  // Counter-clockwise seen from outside; every index is in [0, size()).
+  // The corners of each triangle, counter-clockwise as seen from outside. Every index is in [0,
+  // size()).
   std::vector<std::array<int, 3>> triangles;
 
   std::size_t size() const { return points.size(); }

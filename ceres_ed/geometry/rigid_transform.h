@@ -7,7 +7,8 @@
 
 namespace ceres_ed {
 
-// b_from_a: point_in_b = rotation * point_in_a + translation. Identity by default.
+// A rigid transform b_from_a: point_in_b = rotation * point_in_a + translation. It is the identity
+// by default.
 struct RigidTransform {
   Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
   // In the unit of the points.

@@ -17,11 +17,11 @@ namespace ceres_ed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Points nearer than this fraction of the spacing are within it.
+// Points that are nearer than this fraction of the spacing count as within the spacing.
 constexpr double kWithin = 1.0 - 1e-9;
 
-// Samples in cells of the size of the spacing. Two cells may share a key: that costs a comparison,
-// not an error.
+// Samples sorted into cells of the size of the spacing. Two cells may have the same key; this costs
+// comparisons but causes no error.
 class SampleGrid {
  public:
   SampleGrid(const std::vector<Eigen::Vector3d>& points, double spacing)
@@ -60,7 +60,8 @@ class SampleGrid {
   };
 
   Cell CellOf(int point) const {
-    // A little wider than the spacing, so that rounding puts no pair two cells apart.
+    // Cells are slightly wider than the spacing, so that rounding never puts a pair within the
+    // spacing two cells apart.
     const Eigen::Vector3d cell =
         ((points_[point] - origin_) / (spacing_ * (1.0 + 1e-9))).array().floor().min(1e15);
     return {static_cast<std::int64_t>(cell.x()),
@@ -78,12 +79,13 @@ class SampleGrid {
   const Eigen::Vector3d origin_;
   const double spacing_;
   std::vector<int> samples_;
-  // The newest sample of a cell, and the one before each sample in its cell; -1 ends the chain.
+  // newest_ has the newest sample of a cell, and previous_ has, for each sample, the one before it
+  // in the same cell. -1 ends the chain.
   std::unordered_map<std::uint64_t, int> newest_;
   std::vector<int> previous_;
 };
 
-// The distance along the surface of every representative to the nearest sample so far.
+// For each representative, the distance along the surface to the nearest sample so far.
 class SampleDistances {
  public:
   explicit SampleDistances(const SurfaceTopology& topology)
@@ -91,7 +93,8 @@ class SampleDistances {
 
   double operator[](int point) const { return distances_[point]; }
 
-  // Updates the points that `point` is nearest to, and nearer than `limit`.
+  // Adds `point` as a sample. Updates all points within `limit` that are nearer to it than to the
+  // other samples.
   void Add(int point, double limit) {
     Offer(point, 0.0);
     while (!queue_.empty()) {
@@ -118,6 +121,7 @@ class SampleDistances {
   std::vector<std::pair<double, int>> queue_;
 };
 
+// Returns whether the component of `point` is large enough to get samples.
 bool IsEligible(const SurfaceTopology& topology, int point, int min_component_points) {
   return topology.component_sizes[topology.component[point]] >= min_component_points;
 }
@@ -163,7 +167,8 @@ std::vector<int> FarthestPointSample(const std::vector<Eigen::Vector3d>& points,
   std::vector<double> squared(walk_order.size(), kInfinity);
   std::vector<int> samples;
   const double squared_spacing = std::pow(options.min_spacing * kWithin, 2);
-  // Squared distances keep the order, and the first of the farthest in walk order wins.
+  // Squared distances have the same order as distances. Of several farthest points the first in
+  // walk order is chosen.
   std::size_t farthest = 0;
   while (!walk_order.empty() && static_cast<int>(samples.size()) < options.max_count &&
          squared[farthest] > 0.0 && squared[farthest] >= squared_spacing) {
@@ -182,7 +187,8 @@ std::vector<int> FarthestPointSampleAlongSurface(const SurfaceTopology& topology
                                                  const FarthestPointOptions& options,
                                                  int min_component_points) {
   CheckOptions(options);
-  // Distances only shrink: an entry of the queue that is out of date is too high, and goes back.
+  // Distances can only shrink. An entry of the queue that is out of date is therefore too high; it
+  // is put back with its new distance.
   struct Entry {
     double distance;
     int rank;

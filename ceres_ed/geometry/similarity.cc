@@ -9,7 +9,8 @@
 namespace ceres_ed {
 namespace {
 
-// Spread across the main line below this fraction of that along it counts as none.
+// If the spread of the points across their main axis is below this fraction of the spread along it,
+// the points lie on a line.
 constexpr double kMinRelativeSpread = 1e-12;
 
 }  // namespace
@@ -53,6 +54,7 @@ StatusOr<Similarity> Similarity::FitPoints(const std::vector<Eigen::Vector3d>& f
     from_variance += (from[i] - from_mean).squaredNorm() / num_pairs;
   }
   if (!covariance.allFinite()) return Status::Error("a rigid fit needs finite points");
+  // With covariance = U Sigma V^T, the best rotation is U V^T (Umeyama 1991).
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   const Eigen::Vector3d& sigma = svd.singularValues();
@@ -60,7 +62,7 @@ StatusOr<Similarity> Similarity::FitPoints(const std::vector<Eigen::Vector3d>& f
     return Status::Error(
         "a rigid fit needs points that do not lie on one line: these leave the rotation open");
   }
-  // The sign keeps the rotation proper where the pairs ask for a reflection.
+  // The sign makes the rotation proper if the pairs fit a reflection better.
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) sign[2] = -1.0;
   const Eigen::Matrix3d R = svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose();

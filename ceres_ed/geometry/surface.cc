@@ -19,6 +19,7 @@ PointCloud WithNormals(PointCloud cloud, int num_threads) {
   return cloud;
 }
 
+// Returns the area of each point's share relative to the mean, limited to [0.1, 10].
 std::vector<double> RelativeAreas(const PointCloud& cloud) {
   if (!cloud.HasTriangles()) return std::vector<double>(cloud.size(), 1.0);
   std::vector<double> areas(cloud.size(), 0.0);
@@ -34,6 +35,7 @@ std::vector<double> RelativeAreas(const PointCloud& cloud) {
   return areas;
 }
 
+// Returns the radius of a disc that has the area of each point's share.
 std::vector<double> Radii(const PointCloud& cloud) {
   std::vector<double> areas(cloud.size(), 0.0);
   for (const std::array<int, 3>& t : cloud.triangles) {

@@ -1,4 +1,4 @@
-// A cloud with everything that matching needs, built once.
+// A point cloud together with everything that matching needs, built once.
 #ifndef CERES_ED_GEOMETRY_SURFACE_H_
 #define CERES_ED_GEOMETRY_SURFACE_H_
 
@@ -16,34 +16,38 @@
 
 namespace ceres_ed {
 
-// A mesh or bare points with normals, topology, search index and sample areas. Neither copied nor
-// moved: the index refers to the cloud.
+// A mesh, or points without triangles, with normals, topology, search index and sample areas. It
+// can't be copied or moved, since the index refers to the cloud.
 class Surface {
  public:
-  // Normals are computed where the cloud has none. `cloud` isn't empty.
+  // Computes normals if the cloud has none. `cloud` must not be empty.
   explicit Surface(PointCloud cloud, int num_threads = 1);
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
 
   const PointCloud& cloud() const { return cloud_; }
   const SurfaceTopology& topology() const { return topology_; }
-  // The closest point of the surface, between its points too. Built when it is first asked for.
+  // The index for the closest point of the surface, which may lie between its points. It is built
+  // at the first call.
   const SurfaceIndex& index() const;
-  // The closest of its points: several times faster. Built when it is first asked for.
+  // The index for the closest of its points, which is several times faster. It is built at the
+  // first call.
   const KdTree& tree() const;
-  // The area that each point stands for, relative to the mean of all points: a third of its
-  // triangles. 1 for bare points; kept in [0.1, 10].
+  // The area that each point represents, relative to the mean of all points: a third of the area of
+  // its triangles, limited to [0.1, 10]. It is 1 for points without triangles.
   const std::vector<double>& relative_areas() const { return relative_areas_; }
-  // The radius of the disc that has the area of a point's share: how far from it its nearest
-  // neighbours begin. 0 for bare points.
+  // The radius of the disc whose area is that of a point's share, in the unit of the points. The
+  // nearest neighbours of the point begin at about that distance. It is 0 for points without
+  // triangles.
   double radius(int point) const { return radii_[point]; }
-  // The unit normal at a hit: corner normals blended, zero where none is known.
+  // Returns the unit normal at a hit: the blended normals of the corners. It is zero where no
+  // normal is known.
   Eigen::Vector3d NormalAt(const SurfaceHit& hit) const;
-  // The brightness at a hit: linear on a triangle. Unknown where the cloud has none, or no
-  // gradient.
+  // Returns the brightness at a hit, which is linear on each triangle. It is unknown if the cloud
+  // has no brightness, or if the gradient is not determined.
   Intensity IntensityAt(const SurfaceHit& hit) const;
-  // The brightness of a point, with the gradient around it. What that takes is built when it is
-  // first asked for.
+  // Returns the brightness of a point and the gradient around it. The gradients are computed at the
+  // first call.
   Intensity IntensityOf(int point) const;
 
  private:
@@ -59,8 +63,8 @@ class Surface {
   std::vector<double> radii_;
 };
 
-// About `count` of the surface's points, evenly over the order in space; all when there are fewer.
-// Isolated vertices of a mesh are left out.
+// Returns about `count` of the surface's points, spread evenly over its walk order, or all if there
+// are fewer. Isolated vertices of a mesh are not among them.
 std::vector<int> SamplePoints(const Surface& surface, int count);
 
 }  // namespace ceres_ed

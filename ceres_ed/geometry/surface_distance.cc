@@ -16,7 +16,8 @@ struct QueueEntry {
   int point;
 };
 
-// Puts the nearest entry on top; the seed breaks ties in the order of the labels of a point.
+// Puts the nearest entry on top of the heap. Ties are broken by the seed, in the same way as among
+// the labels of a point.
 struct Farther {
   bool operator()(const QueueEntry& a, const QueueEntry& b) const {
     if (a.distance != b.distance) return a.distance > b.distance;
@@ -24,8 +25,9 @@ struct Farther {
   }
 };
 
-// Dijkstra with up to k labels (seed, distance) a point, kept sorted in the result's own arrays.
-// The labels of a point leave the queue in their order, so the settled ones are a prefix.
+// Dijkstra's algorithm with up to k labels (seed, distance) for each point. The labels are kept
+// sorted in the arrays of the result. Since the labels of a point leave the queue in that order,
+// the settled ones come first.
 class MultiSeedSearch {
  public:
   MultiSeedSearch(const SurfaceTopology& topology, int k) : topology_(topology), k_(k) {
@@ -37,7 +39,7 @@ class MultiSeedSearch {
     queue_.reserve(num_points);
   }
 
-  // Offers a way from `seed` to `point`.
+  // Enters a path from `seed` to `point` if it is among the k shortest to that point.
   void Relax(int point, int seed, double distance) {
     int* seeds = &result_.seeds[static_cast<std::size_t>(point) * k_];
     double* distances = &result_.distances[static_cast<std::size_t>(point) * k_];
@@ -45,7 +47,7 @@ class MultiSeedSearch {
       return distance < distances[i] || (distance == distances[i] && seed < seeds[i]);
     };
     if (distances[k_ - 1] <= distance && !before(k_ - 1)) return;
-    // The new label takes the place of an older one of the same seed, else of the last.
+    // The new label replaces an older one of the same seed, otherwise the last one.
     int place = 0;
     while (place < k_ - 1 && seeds[place] != seed) ++place;
     if (seeds[place] == seed && distances[place] <= distance) return;
@@ -77,6 +79,7 @@ class MultiSeedSearch {
     }
   }
 
+  // Copies the labels of each representative to the points that are welded to it.
   NearestSeeds TakeResult() {
     for (int p = 0; p < topology_.num_points(); ++p) {
       const std::size_t from = static_cast<std::size_t>(topology_.representative[p]) * k_;

@@ -13,8 +13,8 @@
 namespace ceres_ed {
 namespace {
 
-// One triangle at a point: the edge to `neighbor`, and the corner across that edge. In one number,
-// which compares by the neighbour, then by the corner.
+// One triangle at a point: the edge to `neighbor`, and the corner opposite to that edge. Both are
+// stored in one number, so that wings compare by neighbour, then by corner.
 class Wing {
  public:
   Wing() = default;
@@ -36,7 +36,7 @@ struct Wings {
   std::vector<Wing> wings;
 };
 
-// A straight way between two corners across the edge that their triangles share.
+// A straight line between two corners across the edge that their triangles share.
 struct Shortcut {
   int from;
   int to;
@@ -50,7 +50,7 @@ std::vector<int> OffsetsFromCounts(const std::vector<T>& counts) {
   return offsets;
 }
 
-// Corners as representatives; none for a triangle that has lost a corner to welding.
+// Returns the representatives of the corners; none if welding has made two of them equal.
 std::optional<std::array<int, 3>> WeldedCorners(const std::array<int, 3>& triangle,
                                                 const std::vector<int>& representative) {
   const std::array<int, 3> corners = {
@@ -91,8 +91,8 @@ Wings CollectWings(const PointCloud& cloud, const std::vector<int>& representati
   return result;
 }
 
-// The length of the straight line from c to d with the triangles abc and bad unfolded into a plane;
-// none when it does not cross the edge ab.
+// Returns the length of the straight line from c to d when the triangles abc and bad are unfolded
+// into a plane; none if the line does not cross the edge ab.
 std::optional<double> UnfoldedLength(const Eigen::Vector3d& a,
                                      const Eigen::Vector3d& b,
                                      const Eigen::Vector3d& c,
@@ -111,7 +111,7 @@ std::optional<double> UnfoldedLength(const Eigen::Vector3d& a,
   return std::hypot(xc - xd, yc + yd);
 }
 
-// Fills in edges, borders and isolation of representatives, and returns the shortcuts.
+// Computes the edges and borders of the representatives, and returns the shortcuts.
 std::vector<Shortcut> ExtractEdges(const PointCloud& cloud,
                                    const Wings& wings,
                                    SurfaceTopology* topology) {
@@ -128,7 +128,7 @@ std::vector<Shortcut> ExtractEdges(const PointCloud& cloud,
     const auto end = wings.wings.begin() + wings.offsets[p + 1];
     for (auto it = wings.wings.begin() + wings.offsets[p]; it != end;) {
       const int q = it->neighbor();
-      // The first two different corners across the edge; a triangle listed twice is one.
+      // Find the first two different opposite corners. A triangle that is listed twice counts once.
       int opposite[2] = {it->opposite(), -1};
       int num_opposite = 1;
       for (++it; it != end && it->neighbor() == q; ++it) {
@@ -139,7 +139,8 @@ std::vector<Shortcut> ExtractEdges(const PointCloud& cloud,
       topology->edge_is_border.push_back(num_opposite == 1);
       topology->is_border[p] |= static_cast<char>(num_opposite == 1);
       if (num_opposite != 2 || rank[p] > rank[q]) continue;
-      // By rank, so that the length is the same to the bit for any order of the points.
+      // The corners are sorted by rank, so that the length has the same bits for any order of the
+      // points.
       if (rank[opposite[0]] > rank[opposite[1]]) std::swap(opposite[0], opposite[1]);
       const auto length = UnfoldedLength(
           cloud.points[p], cloud.points[q], cloud.points[opposite[0]], cloud.points[opposite[1]]);
@@ -150,6 +151,7 @@ std::vector<Shortcut> ExtractEdges(const PointCloud& cloud,
   return shortcuts;
 }
 
+// Joins the mesh edges and the shortcuts into `paths`.
 void BuildPaths(const std::vector<Shortcut>& shortcuts, SurfaceTopology* topology) {
   const int num_points = topology->num_points();
   std::vector<int> counts(num_points);
@@ -170,6 +172,7 @@ void BuildPaths(const std::vector<Shortcut>& shortcuts, SurfaceTopology* topolog
   }
 }
 
+// Numbers the connected components by a flood fill along the edges.
 void LabelComponents(SurfaceTopology* topology) {
   const int num_points = topology->num_points();
   topology->component.assign(num_points, -1);

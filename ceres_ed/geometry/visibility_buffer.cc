@@ -11,24 +11,24 @@
 namespace ceres_ed {
 namespace {
 
-// Triangles are cut this far in front of the camera, as a share of their largest depth: nearer,
-// projections grow without bound.
+// Triangles are cut at this distance in front of the camera, as a fraction of their largest depth.
+// Nearer to the camera, projections grow without bound.
 constexpr double kNearShare = 1e-6;
 
-// Squares of points: how many distances between them, over how many of them, and the largest half
-// side in pixels.
+// The squares of points: half a side in median spacings, the number of points from which the median
+// is taken, and the largest half side in pixels.
 constexpr double kSpacings = 1.5;
 constexpr std::size_t kSpacingSamples = 1000;
 constexpr double kMaxHalfSide = 32.0;
 
-// The median distance of the points to their nearest others; 0 where there are none.
+// Returns the median distance of the points to their nearest neighbours; 0 if there are none.
 double MedianSpacing(const std::vector<Eigen::Vector3d>& points) {
   const KdTree tree(points);
   const std::size_t step = points.size() / kSpacingSamples + 1;
   std::vector<double> spacings;
   std::array<Neighbor, 2> nearest;
   for (std::size_t i = 0; i < points.size(); i += step) {
-    // The first one is the point itself.
+    // The first neighbour is the point itself.
     if (tree.KNearest(points[i], 2, nearest.data()) < 2) continue;
     spacings.push_back(std::sqrt(nearest[1].squared_distance));
   }
@@ -43,7 +43,7 @@ std::optional<std::array<int, 2>> PixelOf(const PinholeCamera& camera,
   const Eigen::Vector2d pixel = camera.Project(point);
   const double u = std::floor(pixel.x() + 0.5);
   const double v = std::floor(pixel.y() + 0.5);
-  // Written so that NaN is outside, and before the conversion, which may overflow.
+  // The test treats NaN as outside. It comes before the conversion, which may overflow.
   if (!(u >= 0.0 && v >= 0.0 && u < camera.width && v < camera.height)) return std::nullopt;
   return std::array<int, 2>{static_cast<int>(u), static_cast<int>(v)};
 }
@@ -57,7 +57,7 @@ void VisibilityBuffer::AddTriangles(const PointCloud& mesh) {
     const double far = std::max({corners[0].z(), corners[1].z(), corners[2].z()});
     if (!(far > 0.0)) continue;
     const double near = kNearShare * far;
-    // Cut by the plane z = near: what is left has three corners, or four.
+    // Cut the triangle by the plane z = near. The rest has three or four corners.
     std::array<Eigen::Vector3d, 4> kept;
     int count = 0;
     for (int k = 0; k < 3; ++k) {
@@ -95,7 +95,7 @@ void VisibilityBuffer::AddTriangle(const Triangle& corners) {
       const double b = side(p[2], p[0], u, v) / area;
       const double c = 1.0 - a - b;
       if (a < 0.0 || b < 0.0 || c < 0.0) continue;
-      // 1 / z is linear in the picture.
+      // 1 / z is linear in the image.
       const double inverse = a / corners[0].z() + b / corners[1].z() + c / corners[2].z();
       nearest_.Add(u, v, 1.0 / inverse);
     }

@@ -1,4 +1,4 @@
-// Which points a camera sees.
+// A depth buffer that tells which points a camera sees.
 #ifndef CERES_ED_GEOMETRY_VISIBILITY_BUFFER_H_
 #define CERES_ED_GEOMETRY_VISIBILITY_BUFFER_H_
 
@@ -14,27 +14,29 @@
 
 namespace ceres_ed {
 
-// Returns the pixel that a point of the camera frame falls on, or nothing when it is behind the
-// camera or outside the picture. Integers are pixel centres: column 0 takes u from -0.5 up to 0.5.
+// Returns the pixel (column, row) onto which a point in the camera frame is projected, or nothing
+// if the point is behind the camera or outside the image. Integer coordinates are pixel centres:
+// column 0 covers u from -0.5 up to 0.5.
 std::optional<std::array<int, 2>> PixelOf(const PinholeCamera& camera,
                                           const Eigen::Vector3d& point);
 
-// What occluders hide, by the nearest depth at each pixel.
+// The depth of the nearest occluder at each pixel.
 class VisibilityBuffer {
  public:
-  // Nothing occludes yet.
+  // Starts without occluders.
   explicit VisibilityBuffer(const PinholeCamera& camera);
 
-  // Adds triangles in the camera frame, sampled at the centres of the pixels. What is behind the
-  // camera occludes nothing.
+  // Adds triangles in the camera frame, sampled at the pixel centres. Parts behind the camera do
+  // not occlude anything.
   void AddTriangles(const PointCloud& mesh);
 
-  // Adds points in the camera frame as squares parallel to the picture, with a half side of one and
-  // a half times the median distance to the nearest other point: without gaps on a surface.
+  // Adds points in the camera frame as squares parallel to the image. Half a side is one and a half
+  // times the median distance of a point to its nearest neighbour, so that the squares of a surface
+  // leave no gaps.
   void AddPoints(const std::vector<Eigen::Vector3d>& points);
 
-  // True for a point in the picture that lies behind no occluder by more than `tolerance` times its
-  // own depth.
+  // Returns true if the point lies in the image and is not behind an occluder by more than
+  // `tolerance` times its own depth.
   bool Sees(const Eigen::Vector3d& point, double tolerance) const;
 
  private:

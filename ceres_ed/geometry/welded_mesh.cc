@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// Of a bare point; as many as a vertex of a regular mesh has.
+// The number of neighbours of a point without triangles. A vertex of a regular mesh has as many.
 constexpr int kBareNeighbors = 6;
 
 void NumberVertices(const SurfaceTopology& topology, WeldedMesh* mesh) {
@@ -81,7 +81,7 @@ WeldedMesh BuildWeldedMesh(const PointCloud& cloud, const SurfaceTopology& topol
 
 Eigen::SparseMatrix<double> SquaredLaplacian(const WeldedMesh& mesh) {
   const int size = mesh.num_vertices();
-  // Neighbours in ascending order, each vertex among its own.
+  // The neighbours of each vertex, in ascending order.
   std::vector<int> offsets(size + 1, 0);
   for (const auto& [a, b] : mesh.edges) {
     ++offsets[a + 1];
@@ -108,7 +108,7 @@ Eigen::SparseMatrix<double> SquaredLaplacian(const WeldedMesh& mesh) {
   };
   matrix.reserve(static_cast<long>(size) * 11);
   for (int v = 0; v < size; ++v) {
-    // Column v of L D^-1 L, with L_uu = D_u.
+    // Add up column v of L D^-1 L, where L_uu = D_u.
     add(v, v, degree(v));
     for (int e = offsets[v]; e < offsets[v + 1]; ++e) {
       const int u = neighbors[e];

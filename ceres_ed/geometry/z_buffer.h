@@ -1,4 +1,4 @@
-// The nearest depth in each cell of a picture.
+// The nearest depth in each cell of an image.
 #ifndef CERES_ED_GEOMETRY_Z_BUFFER_H_
 #define CERES_ED_GEOMETRY_Z_BUFFER_H_
 
@@ -12,27 +12,28 @@
 
 namespace ceres_ed {
 
-// Cells are squares of `cell` x `cell` pixels; pixels are those of the camera's picture. T is how a
-// depth is kept.
+// A buffer whose cells are squares of `cell` x `cell` pixels of the camera's image. T is the type
+// in which a depth is stored.
 template <typename T>
 class ZBuffer {
  public:
-  // Nothing is there yet.
+  // Starts without any depth.
   explicit ZBuffer(const PinholeCamera& camera, int cell = 1)
       : cell_(cell),
         nearest_((camera.width + cell - 1) / cell,
                  (camera.height + cell - 1) / cell,
                  std::numeric_limits<T>::infinity()) {}
 
+  // Adds a depth at pixel (u, v), which must be inside the image.
   void Add(int u, int v, double z) {
     T& nearest = nearest_(u / cell_, v / cell_);
     nearest = std::min(nearest, static_cast<T>(z));
   }
 
-  // Infinite where nothing is.
+  // Returns the nearest depth in the cell of pixel (u, v); infinite if there is none.
   double At(int u, int v) const { return nearest_(u / cell_, v / cell_); }
 
-  // In pixels.
+  // The side of a cell in pixels.
   int cell() const { return cell_; }
 
  private:
