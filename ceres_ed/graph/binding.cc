@@ -16,10 +16,10 @@
 namespace ceres_ed {
 namespace {
 
-// Weights below this are rounding errors of a tie.
+// A weight below this is a rounding error of a tie.
 constexpr double kMinWeight = 1e-9;
 
-// The nodes of one point on their way into a Skinning.
+// The nodes and weights of one point, before they are added to a Skinning.
 struct BoundNodes {
   std::array<int, kMaxBoundNodes> nodes;
   std::array<double, kMaxBoundNodes> weights;
@@ -40,6 +40,7 @@ BoundNodes BindToNearestInSpace(const KdTree& node_tree,
   return bound;
 }
 
+// Binds each point to the nodes nearest in space.
 Skinning BindInSpace(const std::vector<Eigen::Vector3d>& points,
                      const std::vector<Eigen::Vector3d>& node_positions,
                      const BindingOptions& options) {
@@ -55,6 +56,7 @@ Skinning BindInSpace(const std::vector<Eigen::Vector3d>& points,
   return skinning;
 }
 
+// Binds each point to the nodes nearest along the surface, or in space if no node reaches it.
 Skinning BindAlongSurface(const std::vector<Eigen::Vector3d>& points,
                           const SurfaceTopology& topology,
                           const std::vector<Eigen::Vector3d>& node_positions,
@@ -79,8 +81,8 @@ Skinning BindAlongSurface(const std::vector<Eigen::Vector3d>& points,
   return skinning;
 }
 
-// For each node the nearest point that has a triangle, as the lowest of those at its position, and
-// the distance to it.
+// Finds for each node the nearest point that has a triangle (its representative), and the distance
+// to it.
 void EnterSurface(const PointCloud& cloud,
                   const SurfaceTopology& topology,
                   const DeformationGraph& graph,
@@ -110,6 +112,7 @@ int ComputeWeights(const double* distances, int count, int neighbors, double* we
   while (used > 0 && !std::isfinite(distances[used - 1])) --used;
   CHECK_GE(used, 1) << "no node at a finite distance";
   const int carriers = std::min(used, neighbors);
+  // d_max as in Eq. 2; if there are too few nodes, as if one more lay one step behind the last.
   const double d_max =
       used > neighbors ? distances[neighbors] : distances[used - 1] * (1.0 + 1.0 / used);
   int size = 0;
@@ -120,6 +123,7 @@ int ComputeWeights(const double* distances, int count, int neighbors, double* we
     weights[size++] = weight;
     sum += weight;
   }
+  // All nodes are equally far, or all at the point.
   if (size == 0) {
     std::fill_n(weights, carriers, 1.0 / carriers);
     return carriers;

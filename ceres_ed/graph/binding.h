@@ -1,4 +1,4 @@
-// Which nodes carry a point, and how much: Eq. 2.
+// The binding of points to nodes with the weights of Eq. 2.
 #ifndef CERES_ED_GRAPH_BINDING_H_
 #define CERES_ED_GRAPH_BINDING_H_
 
@@ -14,35 +14,43 @@
 
 namespace ceres_ed {
 
-// Writes the weights of a point's nearest nodes and returns how many nodes carry it (a prefix of
-// the list, in [1, neighbors]; weights are positive, never increase, and sum to 1).
-//   w_j = 1 - d_j / d_max, normalised (Eq. 2), with d_max the distance to node neighbors + 1.
-// `distances` are `count` >= 1 distances in ascending order, of which the first neighbors + 1 are
-// used; infinite ones at the end count as absent. What the paper leaves open:
-//   - Only k <= neighbors nodes there: d_max = d_k (1 + 1 / k), as if one more node stood a step
-//     behind the last. All k carry the point; one node carries it alone.
-//   - A node as far as d_max (to a relative 1e-9) weighs nothing and is dropped.
-//   - All neighbors + 1 equally far, or all at the point: the first `neighbors` weigh the same.
-//   - A point on a node: w = 1 before the normalisation, as Eq. 2 says; the others still count.
+// Computes the weights of a point's nearest nodes:
+//   w_j = 1 - d_j / d_max, normalised to sum 1 (Eq. 2)
+// where d_max is the distance to node number neighbors + 1. `distances` has `count` >= 1 distances
+// in ascending order. The first neighbors + 1 of them are used; infinite ones at the end count as
+// absent.
+//
+// Writes the weights and returns to how many nodes the point is bound. These are the first ones of
+// the list; their number is in [1, neighbors]. Weights are positive, never increase, and sum to 1.
+// The following cases are not defined by the paper:
+//   - There are only k <= neighbors nodes: d_max = d_k (1 + 1 / k), as if one more node lay one
+//     step behind the last one. The point is bound to all k; a single node has weight 1.
+//   - A node is as far as d_max (to a relative 1e-9): its weight is zero, and it is dropped.
+//   - All neighbors + 1 nodes are equally far, or all at the point: the first `neighbors` get the
+//     same weight.
+//   - The point is at a node: w = 1 before the normalisation, as Eq. 2 says. The others still
+//     count.
 int ComputeWeights(const double* distances, int count, int neighbors, double* weights);
 
-// The binding of every point of `cloud` to nodes that are some of its points. Along the surface,
-// points that no node reaches (isolated vertices, islands without a node) are bound to the nodes
-// nearest in space. `topology` is that of `cloud`; `node_points` is not empty.
+// Returns the binding of every point of `cloud` to nodes, which are at the points `node_points` of
+// the cloud. `topology` is the topology of `cloud`. If distances are measured along the surface,
+// points that no node reaches (isolated vertices, components without a node) are bound to the nodes
+// nearest in space. Fails a CHECK on bad options and if `node_points` is empty.
 Skinning BindPoints(const PointCloud& cloud,
                     const SurfaceTopology& topology,
                     const std::vector<int>& node_points,
                     const BindingOptions& options);
 
-// The binding of any other cloud near the graph's rest shape, which need not share a point with the
-// cloud that the graph was built on. Along the surface every node enters at the nearest vertex (in
-// a triangle) of `cloud`, with the distance to it added. For the cloud that the graph was built on
-// the result equals BindPoints to the bit. Fails on a graph without nodes and on bad options.
+// Returns the binding of any other cloud near the graph's rest shape. It need not share points with
+// the cloud from which the graph was built. If distances are measured along the surface, each node
+// starts at the nearest vertex of `cloud` that is in a triangle, and its distance to that vertex is
+// added. For the cloud from which the graph was built, the result has the same bits as that of
+// BindPoints(). Returns an error for a graph without nodes and for bad options.
 StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
                                     const DeformationGraph& graph,
                                     const BindingOptions& options);
 
-// The same with the topology of `cloud` at hand.
+// Does the same if the topology of `cloud` is available already.
 StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
                                     const SurfaceTopology& topology,
                                     const DeformationGraph& graph,

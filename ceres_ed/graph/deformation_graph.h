@@ -13,36 +13,36 @@
 
 namespace ceres_ed {
 
-// A directed edge (j, k) of E_reg (Eq. 6): node `from` = j predicts where node `to` = k goes.
+// A directed edge (j, k) of E_reg (Eq. 6): node `from` = j predicts the position of node `to` = k.
 struct GraphEdge {
   int from = -1;
   int to = -1;
-  // alpha_jk >= 0, no unit.
+  // alpha_jk >= 0, without a unit.
   double weight = 1.0;
 };
 
-// Nodes g_j and directed edges. Node indices are stable: nodes are only ever appended, and none
-// that is there is copied for it.
+// The nodes g_j and the directed edges between them. Node indices are stable: nodes are only ever
+// appended, and adding one does not copy the others.
 class DeformationGraph {
  public:
   int num_nodes() const { return static_cast<int>(positions_.size()); }
   int num_edges() const { return static_cast<int>(edges_.size()); }
 
-  // g_j in map units.
+  // The rest positions g_j, in map units.
   const Eigen::Vector3d& position(int node) const { return positions_[node]; }
   const std::deque<Eigen::Vector3d>& positions() const { return positions_; }
   const std::deque<GraphEdge>& edges() const { return edges_; }
-  // Indices into edges() of every edge that leaves or enters `node`.
+  // The indices into edges() of all edges that leave or enter `node`.
   const std::vector<int>& incident_edges(int node) const { return incident_edges_[node]; }
 
-  // Returns the new node's index.
+  // Adds a node at `position` (map units) and returns its index.
   int AddNode(const Eigen::Vector3d& position) {
     positions_.push_back(position);
     incident_edges_.emplace_back();
     return num_nodes() - 1;
   }
 
-  // Returns the new edge's index. Both nodes must be there and differ.
+  // Adds an edge and returns its index. Fails a CHECK unless both nodes exist and differ.
   int AddEdge(const GraphEdge& edge) {
     CHECK(edge.from >= 0 && edge.from < num_nodes()) << "edge from " << edge.from;
     CHECK(edge.to >= 0 && edge.to < num_nodes() && edge.to != edge.from) << "edge to " << edge.to;
@@ -53,7 +53,8 @@ class DeformationGraph {
     return index;
   }
 
-  // Of the nodes alone, and of the edges with the lists of incident ones.
+  // The memory on the heap, in bytes: of the node positions, and of the edges with the lists of
+  // incident edges.
   std::size_t NodeHeapBytes() const { return HeapBytesOf(positions_); }
   std::size_t EdgeHeapBytes() const {
     return HeapBytesOf(edges_) + HeapBytesOfAll(incident_edges_);

@@ -13,16 +13,17 @@
 namespace ceres_ed {
 namespace {
 
-// Extremes of an edge's weight as multiples of the mean.
+// The limits of an edge's weight as multiples of the mean weight.
 constexpr double kMinRelativeWeight = 0.1;
 constexpr double kMaxRelativeWeight = 10.0;
 
+// A node that shares points with another one, and the sum of w_j w_k over these points.
 struct Partner {
   int node;
   double influence;
 };
 
-// A possible edge of a joint.
+// A possible edge between a piece and the nodes joined so far.
 struct Candidate {
   double squared_distance;
   int piece_node;
@@ -40,6 +41,7 @@ double MeanWeight(const std::vector<GraphEdge>& edges) {
   return sum / static_cast<double>(edges.size());
 }
 
+// Limits the weights to a range around their mean, and scales them to a mean of 1.
 void NormalizeWeights(std::vector<GraphEdge>* edges) {
   if (edges->empty()) return;
   const double raw_mean = MeanWeight(*edges);
@@ -50,7 +52,8 @@ void NormalizeWeights(std::vector<GraphEdge>* edges) {
   for (GraphEdge& edge : *edges) edge.weight /= mean;
 }
 
-// Turns edges j < k or k < j, some of them twice, into both directions, sorted, each once.
+// Returns the edges in both directions, sorted, each of them once. `kept` may contain an edge
+// twice.
 std::vector<GraphEdge> BothDirections(const std::vector<GraphEdge>& kept) {
   std::vector<GraphEdge> edges;
   edges.reserve(2 * kept.size());
@@ -68,8 +71,8 @@ std::vector<GraphEdge> BothDirections(const std::vector<GraphEdge>& kept) {
   return edges;
 }
 
-// The `count` of `candidates` (sorted) to join a piece by: first those with both ends unused, then
-// with one, then the rest.
+// Returns `count` of the sorted `candidates`: first those with two unused ends, then those with
+// one, then the rest.
 std::vector<Candidate> ChooseJoint(const std::vector<Candidate>& candidates, int count) {
   std::vector<Candidate> chosen;
   std::vector<char> taken(candidates.size(), 0);
@@ -92,8 +95,8 @@ std::vector<Candidate> ChooseJoint(const std::vector<Candidate>& candidates, int
   return chosen;
 }
 
-// Nearest pairs between the nodes of a piece and those joined so far: from each of its `count`
-// nodes nearest to them, to the `count` nearest of them.
+// Returns near pairs between the nodes of a piece and the nodes joined so far: from the `count`
+// nodes of the piece that are nearest to the joined ones, to the `count` nearest joined nodes.
 std::vector<Candidate> JointCandidates(const DeformationGraph& graph,
                                        std::vector<int> piece,
                                        const std::vector<int>& joined,
@@ -125,7 +128,7 @@ std::vector<GraphEdge> SharedInfluenceEdges(const Skinning& skinning,
                                             int num_nodes,
                                             int edges_per_node) {
   CHECK_GE(edges_per_node, 1);
-  // A node meets a few dozen others at most: a list beats a map.
+  // A node has a few dozen partners at most, so a list is faster than a map.
   std::vector<std::vector<Partner>> partners(num_nodes);
   const auto add = [&partners](int node, int other, double influence) {
     for (Partner& partner : partners[node]) {
@@ -135,6 +138,7 @@ std::vector<GraphEdge> SharedInfluenceEdges(const Skinning& skinning,
     }
     partners[node].push_back({other, influence});
   };
+  // alpha_jk is the sum of w_j(v) w_k(v) over all points v, up to a common factor.
   for (std::size_t p = 0; p < skinning.size(); ++p) {
     const Binding binding = skinning[p];
     for (int i = 0; i < binding.size; ++i) {
@@ -235,7 +239,7 @@ int JoinPieces(DeformationGraph* graph, int edges_per_joint) {
   std::vector<int> joined;
   std::vector<double> squared_to_joined(graph->num_nodes(),
                                         std::numeric_limits<double>::infinity());
-  // Prim's algorithm over pieces: each node outside knows its distance to the nearest one inside.
+  // Prim's algorithm over pieces: each node outside stores its distance to the nearest node inside.
   while (true) {
     is_joined[next] = 1;
     joined.insert(joined.end(), pieces[next].begin(), pieces[next].end());

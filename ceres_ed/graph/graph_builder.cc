@@ -15,9 +15,11 @@
 namespace ceres_ed {
 namespace {
 
-// An automatic spacing below this many mean edge lengths would put a node on every other point.
+// The smallest automatic spacing in mean edge lengths. A smaller one would put a node on every
+// other point.
 constexpr double kMinEdgesPerSpacing = 2.0;
-// The search for target_nodes ends when it is this close, or after this many samplings.
+// The search for target_nodes ends when the relative error is below this tolerance, or after this
+// number of samplings.
 constexpr double kTargetTolerance = 0.05;
 constexpr int kMaxSamplings = 8;
 
@@ -28,12 +30,12 @@ std::string Sentence(const Parts&... parts) {
   return stream.str();
 }
 
-// What the options mean for one cloud.
+// The input of the sampling.
 struct SamplingPlan {
   const PointCloud& cloud;
   const SurfaceTopology& topology;
   const GraphOptions& options;
-  // What is really used: kSurface only where the surface can carry it.
+  // The rule that is really used. It is kSurface only if the surface is suitable.
   DistanceRule distance;
 };
 
@@ -50,6 +52,7 @@ std::vector<int> SampleWithSpacing(const SamplingPlan& plan, double spacing) {
                  : FarthestPointSample(plan.cloud.points, farthest);
 }
 
+// Chooses plan.options.target_nodes nodes, and returns the spacing that this takes in `spacing`.
 std::vector<int> SampleWithCount(const SamplingPlan& plan, double* spacing) {
   const int target = plan.options.target_nodes;
   if (plan.options.sampling == SamplingRule::kFarthest) {
@@ -61,8 +64,8 @@ std::vector<int> SampleWithCount(const SamplingPlan& plan, double* spacing) {
                      plan.topology, farthest, plan.options.min_component_points)
                : FarthestPointSample(plan.cloud.points, farthest);
   }
-  // Nodes go with the square of the spacing on a surface: that makes a step of the search, and the
-  // brackets keep it from going in circles.
+  // On a surface, the number of nodes is proportional to 1 / spacing^2. This gives the step of the
+  // search. The bounds `low` and `high` keep it from repeating itself.
   double low = 0.0;
   double high = 2.0 * Diagonal(plan.cloud.points);
   double trial = 0.5 * high / std::sqrt(static_cast<double>(target) + 1.0);
@@ -90,8 +93,8 @@ double AutomaticSpacing(const SamplingPlan& plan) {
                   kMinEdgesPerSpacing * MeanEdgeLength(plan.topology));
 }
 
-// The distance to use. A mesh that is mostly crumbs (corners that nearly meet, but not to the bit)
-// has no surface worth walking.
+// Returns the distance to use. If most of a mesh consists of tiny parts (for example since corners
+// nearly coincide but are not equal), distances along its surface are of no use.
 DistanceRule ChooseDistance(const PointCloud& cloud,
                             const SurfaceTopology& topology,
                             const GraphOptions& options,
@@ -178,6 +181,7 @@ StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
   BuiltGraph built;
   const SamplingPlan plan{
       cloud, topology, options, ChooseDistance(cloud, topology, options, &built.warnings)};
+  // 1. Choose the points at which nodes are placed.
   if (options.node_spacing == 0.0 && options.target_nodes > 0) {
     built.node_points = SampleWithCount(plan, &built.node_spacing);
   } else {
@@ -186,9 +190,11 @@ StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
   }
   WarnAboutNodes(plan, &built);
 
+  // 2. Bind all points to the nodes (Eq. 2).
   built.binding = {options.neighbors, plan.distance, options.num_threads};
   built.skinning = BindPoints(cloud, topology, built.node_points, built.binding);
 
+  // 3. Link nodes by the edges of E_reg (Eq. 6).
   for (const int point : built.node_points) built.graph.AddNode(cloud.points[point]);
   const std::vector<GraphEdge> edges =
       options.edges == EdgeRule::kSharedInfluence
@@ -197,6 +203,7 @@ StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
                 cloud, topology, built.node_points, options.edges_per_node, plan.distance);
   for (const GraphEdge& edge : edges) built.graph.AddEdge(edge);
 
+  // 4. Join pieces that are not connected.
   const std::vector<int> pieces = ConnectedPieces(built.graph);
   built.num_pieces = 1 + *std::max_element(pieces.begin(), pieces.end());
   if (built.num_pieces == 1) return built;
@@ -209,7 +216,7 @@ StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
 }
 
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud, const GraphOptions& options) {
-  // Before the topology, which sorts the points.
+  // The check comes before the topology, which sorts the points.
   if (Status finite = CheckFinite(cloud); !finite.ok()) return finite;
   return BuildGraph(cloud, BuildTopology(cloud), options);
 }

@@ -1,4 +1,4 @@
-// From a surface to its deformation graph.
+// Builds the deformation graph of a surface.
 #ifndef CERES_ED_GRAPH_GRAPH_BUILDER_H_
 #define CERES_ED_GRAPH_GRAPH_BUILDER_H_
 
@@ -15,32 +15,33 @@ namespace ceres_ed {
 
 struct SurfaceTopology;
 
+// A graph together with the binding of the cloud from which it was built.
 struct BuiltGraph {
   DeformationGraph graph;
   // The binding of every point of the cloud.
   Skinning skinning;
-  // The point that each node sits on.
+  // For each node, the index of the point at which it lies.
   std::vector<int> node_points;
-  // The rule by which `skinning` was made, with the distance that was really used: what
-  // BindCloudToGraph needs to bind another cloud the same way.
+  // The options with which `skinning` was computed, with the distance that was really used.
+  // BindCloudToGraph() needs them to bind another cloud in the same way.
   BindingOptions binding;
-  // The spacing that was used, in the unit of the points; 0 where a count alone decided.
+  // The spacing that was used, in the unit of the points; 0 if only the number of nodes was given.
   double node_spacing = 0.0;
-  // Pieces of the graph before they were joined; 1 for a graph that hangs together by itself.
+  // The number of connected pieces before they were joined; 1 for a graph that was connected.
   int num_pieces = 0;
-  // One sentence each, for the user.
+  // Warnings for the user, one sentence each.
   std::vector<std::string> warnings;
 };
 
-// The graph of `cloud`, whose topology is `topology`. Fails on bad options, on a cloud without
-// points or without extent, and on more nodes wanted than there are points to put them on. Two runs
-// give the same bits; scaling points and spacing together scales the positions and changes nothing
-// else.
+// Returns the graph of `cloud`, whose topology is `topology`. Returns an error for bad options, for
+// a cloud without points or with all points at one place, for a point that is not finite, and if
+// more nodes are wanted than there are different points. Two runs give the same bits. If points and
+// spacing are scaled together, the positions are scaled and nothing else changes.
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
                                 const SurfaceTopology& topology,
                                 const GraphOptions& options);
 
-// The same, and builds the topology itself.
+// Does the same, and builds the topology itself.
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud, const GraphOptions& options);
 
 }  // namespace ceres_ed

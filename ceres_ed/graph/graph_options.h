@@ -1,4 +1,4 @@
-// How a deformation graph is made of a surface.
+// Options for building a deformation graph from a surface.
 #ifndef CERES_ED_GRAPH_GRAPH_OPTIONS_H_
 #define CERES_ED_GRAPH_GRAPH_OPTIONS_H_
 
@@ -10,10 +10,11 @@
 
 namespace ceres_ed {
 
-// How far a point is from a node.
+// How the distance from a point to a node is measured.
 enum class DistanceRule {
-  // Along the surface; Euclidean where there are no triangles.
+  // Along the surface; Euclidean if there are no triangles.
   kSurface,
+  // The straight line in space.
   kEuclidean,
 };
 
@@ -21,15 +22,16 @@ constexpr std::array<NamedValue<DistanceRule>, 2> NamesOf(DistanceRule) {
   return {{{"surface", DistanceRule::kSurface}, {"euclidean", DistanceRule::kEuclidean}}};
 }
 
-// How points are bound to nodes.
+// Options for binding points to nodes.
 struct BindingOptions {
-  // m of Eq. 2: nodes a point, in [1, kMaxBoundNodes].
+  // m of Eq. 2: the number of nodes to which a point is bound, in [1, kMaxBoundNodes].
   int neighbors = 4;
   DistanceRule distance = DistanceRule::kSurface;
-  // Threads of the Euclidean search; the result does not depend on it.
+  // The number of threads of the Euclidean search, at least 1. The result does not depend on it.
   int num_threads = 1;
 
-  // False, with a sentence in `error`, when a value is out of range.
+  // Returns true if all values are in range. Otherwise returns false and writes a sentence to
+  // `error`.
   bool IsValid(std::string* error) const;
   // The options as data: name, range and text of each.
   static const OptionTable<BindingOptions>& Rows();
@@ -37,9 +39,11 @@ struct BindingOptions {
 
 // How nodes are chosen among the points.
 enum class SamplingRule {
-  // UniformDownsample: no two nodes nearer than the spacing, every point within it.
+  // UniformDownsample(): no two nodes are nearer than the spacing, and every point has a node
+  // within it.
   kUniform,
-  // FarthestPointSample: more even, and hits target_nodes exactly; slower.
+  // FarthestPointSample(): nodes are spread more evenly, and their number is exactly target_nodes.
+  // It is slower.
   kFarthest,
 };
 
@@ -49,9 +53,9 @@ constexpr std::array<NamedValue<SamplingRule>, 2> NamesOf(SamplingRule) {
 
 // Which nodes share an edge.
 enum class EdgeRule {
-  // SharedInfluenceEdges (Sumner et al. 2007).
+  // SharedInfluenceEdges(): nodes that share points (Sumner et al. 2007).
   kSharedInfluence,
-  // NearestNodeEdges, alpha = 1.
+  // NearestNodeEdges(): the nearest nodes, with alpha = 1.
   kNearest,
 };
 
@@ -59,33 +63,38 @@ constexpr std::array<NamedValue<EdgeRule>, 2> NamesOf(EdgeRule) {
   return {{{"shared_influence", EdgeRule::kSharedInfluence}, {"nearest", EdgeRule::kNearest}}};
 }
 
+// Options for building a graph.
 struct GraphOptions {
   SamplingRule sampling = SamplingRule::kUniform;
-  // Distance of sampling, binding and nearest-node edges.
+  // The distance used for sampling, for binding and for the edges to nearest nodes.
   DistanceRule distance = DistanceRule::kSurface;
-  // Distance between nodes in the unit of the points, >= 0; 0 = from target_nodes.
+  // The distance between nodes in the unit of the points, >= 0. With 0 it follows from
+  // target_nodes.
   double node_spacing = 0.0;
-  // Number of nodes wanted where node_spacing is 0, >= 0 (kUniform comes within about 5 %);
-  // 0 = a spacing of auto_spacing times the diagonal, but no less than two mean edge lengths.
+  // The number of nodes wanted, >= 0; used if node_spacing is 0. (With kUniform the number differs
+  // by up to about 5 %.) With 0 the spacing is auto_spacing times the diagonal, but at least two
+  // mean edge lengths.
   int target_nodes = 0;
-  // Fraction of the bounding box's diagonal, > 0.
+  // The automatic spacing as a fraction of the diagonal of the bounding box, > 0.
   double auto_spacing = 0.05;
-  // m of Eq. 2: nodes a point, in [1, kMaxBoundNodes].
+  // m of Eq. 2: the number of nodes to which a point is bound, in [1, kMaxBoundNodes].
   int neighbors = 4;
   EdgeRule edges = EdgeRule::kSharedInfluence;
-  // Partners that a node keeps, >= 1; it may have more, for an edge stays if either end keeps it.
+  // The number of edges that a node chooses, >= 1. It may have more, since an edge is kept if
+  // either end chooses it.
   int edges_per_node = 8;
-  // Mesh components of fewer positions get no node of their own and follow the nodes nearest in
-  // space; >= 1.
+  // Components of a mesh with fewer positions than this get no node. They follow the nodes that are
+  // nearest in space. >= 1.
   int min_component_points = 10;
-  // Join the pieces of the graph so that none is left behind.
+  // If true, the connected pieces of the graph are joined by edges, so that they move together.
   bool join_pieces = true;
-  // Edges at each such joint, >= 1; three hold a piece against turning.
+  // The number of edges at each such joint, >= 1. Three edges keep a piece from turning.
   int edges_per_joint = 3;
-  // >= 1; the result does not depend on it.
+  // The number of threads, >= 1. The result does not depend on it.
   int num_threads = 1;
 
-  // False, with a sentence in `error`, when a value is out of range.
+  // Returns true if all values are in range. Otherwise returns false and writes a sentence to
+  // `error`.
   bool IsValid(std::string* error) const;
   // The options as data: name, range and text of each.
   static const OptionTable<GraphOptions>& Rows();

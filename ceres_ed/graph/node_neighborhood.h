@@ -1,4 +1,4 @@
-// Nodes within a number of hops.
+// The nodes within a number of edges from other nodes.
 #ifndef CERES_ED_GRAPH_NODE_NEIGHBORHOOD_H_
 #define CERES_ED_GRAPH_NODE_NEIGHBORHOOD_H_
 
@@ -9,8 +9,9 @@
 
 namespace ceres_ed {
 
-// Adds to `nodes` every node that is at most `rings` >= 0 edges (in either direction) from one that
-// is there, ring by ring. A node that `admits(node)` refuses is neither added nor passed.
+// Adds to `nodes` every node that is at most `rings` >= 0 edges (in either direction) away from a
+// node in the set, ring by ring. A node for which `admits(node)` is false is not added, and the
+// rings do not pass through it.
 template <typename Admits>
 void AddRings(const DeformationGraph& graph, int rings, Admits admits, NodeSet* nodes) {
   int begin = 0;
@@ -28,8 +29,9 @@ void AddRings(const DeformationGraph& graph, int rings, Admits admits, NodeSet* 
   }
 }
 
-// 1 for every node that is at most `rings` >= 0 edges (in either direction) from a node with a
-// non-zero `seeds`, the seeds included. `seeds` and the result have one element a node.
+// Returns 1 for every node that is at most `rings` >= 0 edges (in either direction) away from a
+// node with a non-zero entry in `seeds`, and for the seeds themselves. `seeds` and the result have
+// one element for each node.
 std::vector<char> RingsAround(const DeformationGraph& graph,
                               const std::vector<char>& seeds,
                               int rings);

@@ -1,4 +1,4 @@
-// Which nodes carry which point, and how much (Eq. 2).
+// The nodes to which points are bound, and their weights (Eq. 2).
 #ifndef CERES_ED_GRAPH_SKINNING_H_
 #define CERES_ED_GRAPH_SKINNING_H_
 
@@ -11,29 +11,31 @@
 
 namespace ceres_ed {
 
-// The nodes of one point: `size` indices and weights. Weights are positive and sum to 1.
+// The binding of one point: the indices and weights of `size` nodes. Weights are positive and sum
+// to 1.
 struct Binding {
   const int* nodes = nullptr;
   const double* weights = nullptr;
   int size = 0;
 };
 
-// The bindings of a set of points, `stride` places a point. Adding a point moves none of the
-// others.
+// The bindings of a set of points, with room for `stride` nodes for each point. Adding a point does
+// not move the others.
 class Skinning {
  public:
-  // At most `stride` nodes a point, in [1, kMaxBoundNodes].
+  // `stride` is the largest number of nodes for each point, in [1, kMaxBoundNodes].
   explicit Skinning(int stride = 4) : nodes_(stride), weights_(stride), sizes_(1) {
     CHECK(stride >= 1 && stride <= kMaxBoundNodes) << "stride " << stride;
   }
 
   int stride() const { return nodes_.width(); }
   std::size_t size() const { return sizes_.size(); }
+  // Returns the binding of a point. It stays valid until the Skinning is destroyed.
   Binding operator[](std::size_t point) const {
     return {nodes_[point], weights_[point], *sizes_[point]};
   }
 
-  // Appends a point bound to `size` >= 1 nodes.
+  // Appends a point that is bound to `size` nodes, in [1, stride()].
   void Add(const int* nodes, const double* weights, int size) {
     const std::size_t point = sizes_.size();
     nodes_.Resize(point + 1);
@@ -42,7 +44,7 @@ class Skinning {
     Set(point, nodes, weights, size);
   }
 
-  // Binds a point that is there anew.
+  // Replaces the binding of an existing point.
   void Set(std::size_t point, const int* nodes, const double* weights, int size) {
     CHECK(size >= 1 && size <= stride()) << "binding of " << size << " nodes";
     for (int i = 0; i < stride(); ++i) {

@@ -14,11 +14,11 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kNeighbors = 4;
-// In spacings of the field.
+// The distances between which the field fades out, in spacings of the field.
 constexpr double kWholeUpTo = 2.0;
 constexpr double kGoneFrom = 6.0;
 
-// 1 up to kWholeUpTo, 0 from kGoneFrom, with a smooth way between.
+// Returns 1 up to kWholeUpTo and 0 from kGoneFrom, with a smooth transition between them.
 double Fade(double distance, double spacing) {
   if (distance <= kWholeUpTo * spacing) return 1.0;
   if (distance >= kGoneFrom * spacing) return 0.0;
@@ -26,7 +26,7 @@ double Fade(double distance, double spacing) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-// The field with one point a position, ready to be searched.
+// The field with one point for each position, and a search tree over these points.
 class FieldSearch {
  public:
   explicit FieldSearch(const VertexField& field)
@@ -42,7 +42,8 @@ class FieldSearch {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0.0;
     for (int i = 0; i < count; ++i) {
-      // Relative to the nearest, so that no distance is too small to divide by.
+      // Weights are relative to that of the nearest point, so that no division by a tiny distance
+      // occurs.
       const double weight = nearest[0].squared_distance / nearest[i].squared_distance;
       sum += weight * displacements_[nearest[i].index];
       weights += weight;
@@ -65,6 +66,7 @@ class FieldSearch {
     return picked;
   }
 
+  // Returns the mean distance of a field point from its nearest neighbours.
   double Spacing(int index) const {
     Neighbor around[kNeighbors + 1];
     const int count = tree_.KNearest(points_[index], kNeighbors + 1, around);

@@ -1,4 +1,4 @@
-// Displacements of single points, and what they mean for the points between and around them.
+// Displacements of single points, and their interpolation between and around these points.
 #ifndef CERES_ED_GRAPH_VERTEX_FIELD_H_
 #define CERES_ED_GRAPH_VERTEX_FIELD_H_
 
@@ -8,8 +8,8 @@
 
 namespace ceres_ed {
 
-// One displacement a point, both in the same frame and unit. Points at the same position have the
-// same displacement.
+// One displacement for each point, both in the same frame and unit. Points at the same position
+// have the same displacement.
 struct VertexField {
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> displacements;
@@ -17,17 +17,18 @@ struct VertexField {
   bool empty() const { return points.empty(); }
 };
 
-// The displacement at every one of `queries`. At a point of the field it is that point's, to the
-// bit; elsewhere the mean over the 4 nearest field points, weighted by 1 / d^2, and so never longer
-// than the longest of theirs. With h the mean distance of the nearest field point from its own 4
-// neighbours it is whole up to 2 h away from that point and fades to zero at 6 h. Queries that are
-// the field's points in their order are not searched for. A field without points is zero.
+// Returns the displacement at each of `queries`. At a point of the field it is exactly that of the
+// point. Elsewhere it is the mean over the 4 nearest field points, weighted by 1 / d^2, so it is
+// never longer than the longest of theirs. It fades out with the distance: let h be the mean
+// distance of the nearest field point from its own 4 nearest neighbours. Up to 2 h from that point
+// the displacement is used in full, and at 6 h it has faded to zero. If the queries are the points
+// of the field in the same order, no search is needed. A field without points is zero everywhere.
 std::vector<Eigen::Vector3d> EvaluateField(const VertexField& field,
                                            const std::vector<Eigen::Vector3d>& queries,
                                            int num_threads = 1);
 
-// Turns each normal by the smallest rotation that takes the unit normal `before` to that `after`;
-// leaves it where one of them is zero.
+// Turns each normal by the smallest rotation that takes the unit normal `before` to the unit normal
+// `after`. A normal is not changed where one of these is zero.
 void TurnNormals(const std::vector<Eigen::Vector3d>& before,
                  const std::vector<Eigen::Vector3d>& after,
                  std::vector<Eigen::Vector3d>* normals);

@@ -14,10 +14,11 @@
 namespace ceres_ed {
 namespace {
 
-// A warped normal this short, against the stretch squared, has lost its direction to rounding.
+// If a warped normal is shorter than this fraction of the squared stretch, its direction is lost to
+// rounding.
 constexpr double kMinRelativeNormal = 1e-12;
 
-// The proper rotation nearest to G; a reflection in G is left out.
+// Returns the proper rotation nearest to G. A reflection in G is ignored.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& G) {
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(G, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d sign = Eigen::Vector3d::Ones();
@@ -39,7 +40,7 @@ Status CheckWarp(const Warp& warp) {
   return Status::Ok();
 }
 
-// Adds what the finish does to `cloud`, which the nodes have moved from `rest`.
+// Adds the finish to `cloud`, whose points the nodes have moved away from `rest`.
 void ApplyFinish(const VertexField& field,
                  const std::vector<Eigen::Vector3d>& rest,
                  int num_threads,
@@ -142,6 +143,7 @@ Status ApplyWarp(const Warp& warp, const Skinning& skinning, PointCloud* cloud, 
     WarpNormals(warp.state, skinning, cloud->normals, num_threads, &cloud->normals);
   }
   if (!warp.finish.empty()) ApplyFinish(warp.finish, rest, num_threads, cloud);
+  // Move the result into the target frame.
   for (Eigen::Vector3d& point : cloud->points) point = warp.target_from_source * point;
   if (!has_normals) return Status::Ok();
   for (Eigen::Vector3d& normal : cloud->normals) {

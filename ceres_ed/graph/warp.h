@@ -1,4 +1,4 @@
-// The deformation itself: Eq. 1 on points, normals and whole clouds.
+// The deformation of Eq. 1, applied to points, normals and whole clouds.
 #ifndef CERES_ED_GRAPH_WARP_H_
 #define CERES_ED_GRAPH_WARP_H_
 
@@ -17,40 +17,46 @@
 
 namespace ceres_ed {
 
-// What a fit found, complete enough to deform any other cloud:
+// The result of a fit. It is complete, so it can deform any other cloud:
 //   v~ = s R (sum_j w_j(v) [A_j (v - g_j) + g_j + t_j] + f(v)) + T
-// with s, R, T = target_from_source and f what `finish` adds (nothing where that is empty).
+// where s, R, T are target_from_source, and f is the displacement that `finish` adds (zero if it is
+// empty).
 struct Warp {
-  // In the frame and unit of the source.
+  // The graph, in the frame and unit of the source.
   DeformationGraph graph;
-  // As many nodes as the graph. camera_from_map is identity: a fit keeps its rigid part in
-  // target_from_source, and the functions below that take a Warp do not look at it.
+  // The parameters of the nodes, as many as the graph has. camera_from_map is the identity: the
+  // rigid part of a fit is in target_from_source, and the functions below that take a Warp do not
+  // use the camera.
   DeformationState state;
+  // The rigid placement and scale of the source in the target's frame.
   Similarity target_from_source;
-  // How points find their nodes.
+  // The options for binding points to nodes.
   BindingOptions binding;
-  // In the frame and unit of the source, added to what the nodes do.
+  // Displacements, in the frame and unit of the source, that are added to the motion of the nodes.
   VertexField finish;
 };
 
-// sum_j w_j [A_j (v - g_j) + g_j + t_j]: the sum of Eq. 1, in the map frame (no camera).
+// Returns the warped point in the map frame, without the camera: sum_j w_j [A_j (v - g_j) + g_j +
+// t_j] (the sum in Eq. 1).
 Eigen::Vector3d WarpPoint(const DeformationGraph& graph,
                           const DeformationState& state,
                           const Binding& binding,
                           const Eigen::Vector3d& point);
 
-// sum_j w_j A_j: how the warp turns and stretches near a point, with the weights held.
+// Returns sum_j w_j A_j, the gradient of the warp at a point when the weights are taken as
+// constant. It says how the warp turns and stretches the surface there.
 Eigen::Matrix3d WarpGradient(const DeformationState& state, const Binding& binding);
 
-// The unit normal of the warped surface, in the map frame: the cofactor matrix of G = WarpGradient
-// times `normal`, which is det(G) G^-T n but lives with a singular G, and agrees with the winding
-// of the warped triangles also under a reflection. Where it vanishes (G of rank 1): the rotation
-// nearest to G times `normal`. A zero normal stays zero.
+// Returns the unit normal of the warped surface, in the map frame. It is the cofactor matrix of G =
+// WarpGradient() times `normal`, normalised. This is det(G) G^-T n, but it also exists for a
+// singular G, and it agrees with the orientation of the warped triangles under a reflection, too.
+// If it vanishes (G of rank 1), the rotation nearest to G is applied to `normal`. A zero normal
+// stays zero.
 Eigen::Vector3d WarpNormal(const DeformationState& state,
                            const Binding& binding,
                            const Eigen::Vector3d& normal);
 
-// Writes WarpPoint of every point to `warped`, which is resized and may be `points` itself.
+// Writes the WarpPoint() of every point to `warped`, which is resized and may be `points` itself.
 void WarpPoints(const DeformationGraph& graph,
                 const DeformationState& state,
                 const Skinning& skinning,
@@ -58,20 +64,21 @@ void WarpPoints(const DeformationGraph& graph,
                 int num_threads,
                 std::vector<Eigen::Vector3d>* warped);
 
-// Writes WarpNormal of every normal to `warped`, which is resized and may be `normals` itself.
+// Writes the WarpNormal() of every normal to `warped`, which is resized and may be `normals`
+// itself.
 void WarpNormals(const DeformationState& state,
                  const Skinning& skinning,
                  const std::vector<Eigen::Vector3d>& normals,
                  int num_threads,
                  std::vector<Eigen::Vector3d>* warped);
 
-// Binds `cloud` (in the source frame) to the warp's graph and takes its points and normals into the
-// target frame. Triangles stay. Where the warp has a finish, normals of a mesh turn along with
-// those of its triangles; those of bare points are as the nodes have them. Fails on a warp without
-// nodes or whose parts do not fit together.
+// Binds `cloud` (in the source frame) to the warp's graph and moves its points and normals into the
+// target frame. Triangles are not changed. If the warp has a finish, the normals of a mesh turn
+// together with those of its triangles; normals of a cloud without triangles follow the nodes only.
+// Returns an error for a warp without nodes or with parts of different sizes.
 Status ApplyWarp(const Warp& warp, PointCloud* cloud, int num_threads = 1);
 
-// The same with the binding of the cloud's points at hand.
+// Does the same if the binding of the cloud's points is available already.
 Status ApplyWarp(const Warp& warp,
                  const Skinning& skinning,
                  PointCloud* cloud,

@@ -1,4 +1,4 @@
-// Rows of numbers that never move.
+// Rows of numbers whose addresses never change.
 #ifndef CERES_ED_UTIL_CHUNKED_ROWS_H_
 #define CERES_ED_UTIL_CHUNKED_ROWS_H_
 
@@ -10,8 +10,8 @@
 
 namespace ceres_ed {
 
-// `width` elements a row, one after the other, in chunks of 256 rows: adding a row never copies
-// those that are there, and pointers to them stay good.
+// A table with `width` elements in each row. It is stored in chunks of 256 rows, so adding rows
+// does not copy existing ones, and pointers to them stay valid.
 template <typename T>
 class ChunkedRows {
  public:
@@ -25,9 +25,10 @@ class ChunkedRows {
     return &chunks_[row >> kBits][(row & kMask) * width_];
   }
 
+  // The memory on the heap, in bytes.
   std::size_t HeapBytes() const { return HeapBytesOfAll(chunks_); }
 
-  // New rows hold T().
+  // Changes the number of rows. New rows are filled with T().
   void Resize(std::size_t rows) {
     const std::size_t room = chunks_.size() << kBits;
     for (std::size_t row = size_; row < rows && row < room; ++row) {

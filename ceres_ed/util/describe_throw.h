@@ -1,4 +1,4 @@
-// Exceptions of others' code as sentences.
+// Turns exceptions of user code into sentences.
 #ifndef CERES_ED_UTIL_DESCRIBE_THROW_H_
 #define CERES_ED_UTIL_DESCRIBE_THROW_H_
 
@@ -7,7 +7,7 @@
 
 namespace ceres_ed {
 
-// Calls `body`, and returns "threw: <what it says>" where it throws; empty where it doesn't.
+// Calls `body`. Returns "threw: <message>" if it throws, and an empty string if it does not.
 template <typename Body>
 std::string DescribeThrow(const Body& body) {
   try {

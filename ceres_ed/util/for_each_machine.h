@@ -1,11 +1,13 @@
-// One function, compiled for several kinds of machine.
+// Compiles a function for several kinds of processor.
 #ifndef CERES_ED_UTIL_FOR_EACH_MACHINE_H_
 #define CERES_ED_UTIL_FOR_EACH_MACHINE_H_
 
-// Before a function that isn't inline: compiles it for plain x86-64 and for AVX2, or for AVX-512,
-// too; the loader takes what the machine has. AVX2 comes with fused multiplication, which rounds
-// once where plain code rounds twice. Levels ("x86-64-v3") match by what a machine has, names of
-// machines ("haswell") by its maker, too. Sanitizers can't follow the indirection.
+// Put the macro before a function that is not inline. The function is then compiled for plain
+// x86-64 and for AVX2 (and for AVX-512 with the second macro), and the loader chooses the version
+// that the processor supports. AVX2 includes fused multiplication, which rounds once where plain
+// code rounds twice. Levels ("x86-64-v3") are matched by what a processor supports; names of
+// processors ("haswell") are also matched by the manufacturer. Sanitizers do not support this
+// mechanism.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define CERES_ED_FOR_EACH_MACHINE __attribute__((target_clones("arch=x86-64-v3", "default")))

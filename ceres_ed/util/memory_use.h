@@ -1,4 +1,4 @@
-// What containers hold on the heap.
+// The memory that containers use on the heap.
 #ifndef CERES_ED_UTIL_MEMORY_USE_H_
 #define CERES_ED_UTIL_MEMORY_USE_H_
 
@@ -11,20 +11,21 @@
 
 namespace ceres_ed {
 
-// Bytes that a 64-bit glibc takes for an allocation of `bytes`: eight for its size, in steps of 16.
+// Returns the bytes that a 64-bit glibc uses for an allocation of `bytes`: it adds eight for the
+// size and rounds up to a multiple of 16.
 constexpr std::size_t HeapBytes(std::size_t bytes) {
   if (bytes == 0) return 0;
   return std::max<std::size_t>(32, (bytes + 8 + 15) / 16 * 16);
 }
 
-// Bytes that a container holds on the heap, whatever of it is in use; not what its elements hold
-// there in turn.
+// Returns the bytes that a container has on the heap, including unused capacity. Memory that its
+// elements own is not counted.
 template <typename T>
 std::size_t HeapBytesOf(const std::vector<T>& values) {
   return HeapBytes(values.capacity() * sizeof(T));
 }
 
-// As libstdc++ has it: blocks of 512 bytes, or of one element, and a pointer to each.
+// Assumes the layout of libstdc++: blocks of 512 bytes, or of one element, and a pointer to each.
 template <typename T>
 std::size_t HeapBytesOf(const std::deque<T>& values) {
   constexpr std::size_t kPerBlock = std::max<std::size_t>(1, 512 / sizeof(T));
@@ -32,15 +33,15 @@ std::size_t HeapBytesOf(const std::deque<T>& values) {
   return blocks * (HeapBytes(kPerBlock * sizeof(T)) + sizeof(void*));
 }
 
-// A node for each element, with a pointer to the next, and the buckets. Hashes of whole numbers
-// are not kept.
+// Assumes a node for each element, with a pointer to the next one, and the buckets. Hashes of
+// integers are not stored.
 template <typename K, typename V>
 std::size_t HeapBytesOf(const std::unordered_map<K, V>& values) {
   return values.size() * HeapBytes(sizeof(void*) + sizeof(std::pair<const K, V>)) +
          HeapBytes(values.bucket_count() * sizeof(void*));
 }
 
-// The same with what the elements, vectors of their own, hold.
+// Does the same for a container of vectors, and counts the memory of these vectors, too.
 template <typename Outer>
 std::size_t HeapBytesOfAll(const Outer& lists) {
   std::size_t bytes = HeapBytesOf(lists);
@@ -48,8 +49,8 @@ std::size_t HeapBytesOfAll(const Outer& lists) {
   return bytes;
 }
 
-// Appends to one of very many short lists: room grows by an eighth, where push_back() doubles it
-// and leaves a third of it idle.
+// Appends to one of very many short lists. The capacity grows by an eighth. push_back() would
+// double it, and a third of the memory would be unused.
 template <typename T>
 void PushBackTightly(const T& value, std::vector<T>* values) {
   constexpr std::size_t kLeast = 4;

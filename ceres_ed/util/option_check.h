@@ -1,4 +1,4 @@
-// What a class of options says of a value that is out of range.
+// The message for an option that is out of range.
 #ifndef CERES_ED_UTIL_OPTION_CHECK_H_
 #define CERES_ED_UTIL_OPTION_CHECK_H_
 
@@ -7,7 +7,7 @@
 
 namespace ceres_ed {
 
-// Returns `holds`; where it is false, `error` becomes "<option> is <value>, expected <expected>".
+// Returns `holds`. If it is false, writes "<option> is <value>, expected <expected>" to `error`.
 template <typename T>
 bool RequireOption(
     bool holds, const char* option, T value, const char* expected, std::string* error) {

@@ -6,7 +6,7 @@
 namespace ceres_ed {
 namespace {
 
-// The number in a field; false where the field is no number.
+// Writes the number in a field. Returns false if the field is not a number.
 bool NumberOf(const OptionField& field, double* value) {
   if (const auto* whole = std::get_if<int*>(&field)) {
     *value = **whole;
@@ -123,7 +123,7 @@ bool CheckOption(const Option& option, const OptionField& field, std::string* er
   double value = 0.0;
   if (!NumberOf(field, &value) || option.range.Contains(value)) return true;
   for (const SpecialValue& special : option.specials) {
-    // A flag's own spelling of a value is not in the member.
+    // A number that is used only on the command line is not stored in the member.
     if (special.on_flag == special.value && special.value == value) return true;
   }
   *error = option.name + " is " + OptionText(field) + ", expected " + ExpectedText(option, field);

@@ -33,25 +33,26 @@
 
 namespace ceres_ed {
 
-// Where an option stands in the help of a program.
+// The group of an option in the help of a program.
 enum class OptionGroup {
-  // What is read and written.
+  // Files that are read or written.
   kFiles,
-  // What most users look at.
+  // Options for most users.
   kMain,
-  // What few users need.
+  // Options that few users need.
   kExpert,
-  // What the library sets itself: neither a flag nor an attribute in Python.
+  // Options that the library sets itself. They are neither a flag nor an attribute in Python.
   kInternal,
 };
 
-// Whether a run that goes on from a checkpoint may change an option.
+// Whether an option may be changed when a run is continued from a checkpoint.
 enum class ResumeRule {
-  // It must be as it was.
+  // It must not change.
   kKeep,
-  // It may change, and the run says so: the result is of the same kind, but not of the same bytes.
+  // It may change, and the run reports it: the result has the same kind of contents but not the
+  // same bytes.
   kNoted,
-  // It may change without a word.
+  // It may change, and the run does not report it.
   kFree,
 };
 
@@ -59,14 +60,14 @@ enum class ResumeRule {
 struct OptionRange {
   double lowest = -std::numeric_limits<double>::infinity();
   double highest = std::numeric_limits<double>::infinity();
-  // Whether the ends themselves are left out.
+  // True if the end itself is not in the range.
   bool open_below = false;
   bool open_above = false;
-  // Whether an infinite value counts as being in the range.
+  // True if an infinite value is in the range.
   bool with_infinity = false;
 
   bool Contains(double value) const;
-  // "a whole number >= 1", "a finite number in (0, 180]".
+  // Returns a text such as "a whole number >= 1" or "a finite number in (0, 180]".
   std::string Text(bool is_whole) const;
 };
 
@@ -83,13 +84,13 @@ OptionRange AboveUpTo(double bound, double highest);
 // (lowest, highest).
 OptionRange Inside(double lowest, double highest);
 
-// A number with a meaning of its own.
+// A number with a special meaning.
 struct SpecialValue {
-  // What a flag has for it, beside `word`.
+  // The number for it on the command line, in addition to `word`.
   double on_flag = 0.0;
-  // What the member is then.
+  // The value of the member.
   double value = 0.0;
-  // "automatic".
+  // The word for it, for example "automatic".
   std::string word;
 };
 
@@ -97,7 +98,7 @@ struct SpecialValue {
 struct NamedField {
   void* value = nullptr;
   std::string (*get)(const void* value) = nullptr;
-  // False where no value has that name.
+  // Returns false if no value has that name.
   bool (*set)(void* value, const std::string& name) = nullptr;
   std::string (*list)(const char* separator) = nullptr;
 };
@@ -105,27 +106,27 @@ struct NamedField {
 // A reference to a member.
 using OptionField = std::variant<bool*, int*, std::uint64_t*, double*, std::string*, NamedField>;
 
-// What is known of an option beside its member.
+// The description of an option.
 struct Option {
-  // The name of the flag and of the attribute in Python, and the one in messages.
+  // The name of the flag, of the attribute in Python, and in messages.
   std::string name;
   // One letter for the command line; 0 = none.
   char letter = 0;
   // One sentence in plain English.
   std::string doc;
-  // "pixels"; empty where there is none.
+  // The unit, for example "pixels"; empty if there is none.
   std::string unit;
   OptionGroup group = OptionGroup::kExpert;
-  // Of a number.
+  // The range of a number.
   OptionRange range;
   std::vector<SpecialValue> specials;
-  // What a flag takes for true and false where it takes words for a bool.
+  // The words for true and false on the command line, if the flag of a bool takes words.
   std::string word_for_true;
   std::string word_for_false;
   ResumeRule resume = ResumeRule::kKeep;
 };
 
-// Returns a number in as few digits as read back as the same.
+// Returns a number with the fewest digits from which the same number is read back.
 std::string NumberText(double value);
 
 // Returns the value of a field as text.
@@ -134,11 +135,11 @@ std::string OptionText(const OptionField& field);
 // Returns what is expected of a field: its range or its names.
 std::string ExpectedText(const Option& option, const OptionField& field);
 
-// The same for a flag, which also takes the special values that no member has.
+// Does the same for a flag, which also accepts the special values that no member has.
 std::string ExpectedOnFlag(const Option& option, const OptionField& field);
 
-// Returns whether a field is in its range. Where it is not, `error` becomes
-// "<name> is <value>, expected <expected>".
+// Returns whether a field is in its range. If it is not, writes "<name> is <value>, expected
+// <expected>" to `error`.
 bool CheckOption(const Option& option, const OptionField& field, std::string* error);
 
 // One or more rows; see Row(), Nested() and NotData().
@@ -295,7 +296,7 @@ class OptionTable {
   typename std::vector<OneRow>::const_iterator begin() const { return rows_.begin(); }
   typename std::vector<OneRow>::const_iterator end() const { return rows_.end(); }
 
-  // Members of the struct that the table tells of.
+  // The number of members of the struct that are in the table.
   int num_members() const { return num_members_; }
 
   // Returns the row of that name that users see, or null.

@@ -1,4 +1,4 @@
-// What the header of an Options struct needs of its rows (options.h).
+// The declarations that the header of an Options struct needs for its rows (options.h).
 #ifndef CERES_ED_UTIL_OPTIONS_FWD_H_
 #define CERES_ED_UTIL_OPTIONS_FWD_H_
 

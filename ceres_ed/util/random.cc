@@ -10,12 +10,13 @@ constexpr double kPi = 3.14159265358979323846;
 }  // namespace
 
 double Random::Uniform() {
-  // The upper 53 bits, half a step off zero.
+  // The upper 53 bits, moved by half a step so that the result is never 0.
   return (static_cast<double>(engine_() >> 11) + 0.5) * 0x1.0p-53;
 }
 
 double Random::Gaussian() {
-  // The order of two calls within one expression is the compiler's choice.
+  // Two statements are needed, since the compiler may choose the order of two calls within one
+  // expression.
   const double first = Uniform();
   const double second = Uniform();
   return std::sqrt(-2.0 * std::log(first)) * std::cos(2.0 * kPi * second);

@@ -7,13 +7,15 @@
 
 namespace ceres_ed {
 
-// Random numbers that are the same on every platform (the standard's distributions are not).
+// A generator of random numbers that are the same on every platform. (The distributions of the
+// standard library are not.)
 class Random {
  public:
   explicit Random(std::uint64_t seed) : engine_(seed) {}
   // Returns a number in (0, 1).
   double Uniform();
-  // Returns a number of mean 0 and deviation 1, by Box and Muller's formula.
+  // Returns a normally distributed number of mean 0 and standard deviation 1 (Box and Muller's
+  // formula).
   double Gaussian();
 
  private:

@@ -15,8 +15,8 @@
 namespace ceres_ed {
 namespace {
 
-// To fall asleep and to be woken takes about as long as this: loops that follow one another closely
-// find everybody awake.
+// Falling asleep and waking up takes about this long. A thread therefore waits as long before it
+// sleeps, so that all threads are awake when loops follow one another closely.
 constexpr std::chrono::microseconds kPatience(50);
 
 void Pause() {
@@ -27,7 +27,7 @@ void Pause() {
 #endif
 }
 
-// Waits for `condition` a short while; false when it doesn't come true.
+// Waits a short time for `condition`. Returns false if it does not become true.
 template <typename Condition>
 bool AwaitBriefly(Condition condition) {
   static const bool has_one_core = std::thread::hardware_concurrency() == 1;
@@ -42,7 +42,7 @@ bool AwaitBriefly(Condition condition) {
   return false;
 }
 
-// Of a thread that is at a task.
+// True in a thread that is running a task.
 thread_local bool within_task = false;
 
 // The helpers of one calling thread.
@@ -84,15 +84,16 @@ class ThreadTeam {
   }
 
  private:
-  // Makes helpers until there are `count`, or the system gives no more.
+  // Creates helpers until there are `count`, or until the system can't create more.
   void Grow(int count) {
     try {
       while (static_cast<int>(helpers_.size()) < count) helpers_.emplace_back([this] { Help(); });
     } catch (const std::system_error&) {
-      // Those that are there, and the caller, do the rest.
+      // The existing helpers and the caller do all tasks.
     }
   }
 
+  // The loop of a helper: runs tasks, and sleeps when there are none.
   void Help() {
     within_task = true;
     const auto is_called = [this] { return stop_ || open_ > 0; };
@@ -107,7 +108,7 @@ class ThreadTeam {
     }
   }
 
-  // Runs the next task; false when all are taken.
+  // Runs the next task. Returns false if all tasks are taken.
   bool TakeOne() {
     const std::function<void(int)>* task = nullptr;
     int index = 0;
@@ -119,7 +120,7 @@ class ThreadTeam {
     }
     (*task)(index);
     if (--unfinished_ == 0) {
-      // Under the lock: not between the caller's look at the number and its sleep.
+      // The lock keeps this from falling between the caller's test of the number and its sleep.
       const std::lock_guard<std::mutex> lock(mutex_);
       done_.notify_one();
     }
@@ -129,10 +130,10 @@ class ThreadTeam {
   std::mutex mutex_;
   std::condition_variable wake_;
   std::condition_variable done_;
-  // The present loop. Changed under the lock; `open_` and `stop_` are looked at without it, too.
+  // The current loop. It is changed under the lock; `open_` and `stop_` are also read without it.
   const std::function<void(int)>* task_ = nullptr;
   int num_tasks_ = 0;
-  // Tasks that nobody has taken, and those that aren't done.
+  // The number of tasks that nobody has taken, and the number of those that are not done.
   std::atomic<int> open_{0};
   std::atomic<int> unfinished_{0};
   std::atomic<bool> stop_{false};
@@ -140,7 +141,7 @@ class ThreadTeam {
   std::vector<std::thread> helpers_;
 };
 
-// The team of a thread, made when it is wanted.
+// The team of a thread, created when it is first needed.
 class OwnTeam {
  public:
   ~OwnTeam() { LeaveAfterFork(); }
@@ -155,7 +156,8 @@ class OwnTeam {
   }
 
  private:
-  // A forked child has the team, but not its threads: they can neither be called nor awaited.
+  // A forked child process has a copy of the team but not its threads, so the copy can be neither
+  // used nor destroyed.
   void LeaveAfterFork() {
     if (team_ != nullptr && process_ != getpid()) static_cast<void>(team_.release());
   }

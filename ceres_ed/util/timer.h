@@ -6,15 +6,16 @@
 
 namespace ceres_ed {
 
-// Starts when it is made. Monotonic: a change of the system's time does not touch it.
+// A stopwatch that starts when it is constructed. It uses a monotonic clock, so changes of the
+// system time do not affect it.
 class Timer {
  public:
-  // Seconds since the start or the last Restart().
+  // Returns the seconds since the start or the last Restart().
   double Seconds() const {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
 
-  // Returns Seconds() and starts anew from zero.
+  // Returns Seconds() and restarts from zero.
   double Restart() {
     const auto now = std::chrono::steady_clock::now();
     const double seconds = std::chrono::duration<double>(now - start_).count();
