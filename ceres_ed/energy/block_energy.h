@@ -1,11 +1,11 @@
-// Energies on parameter blocks: on nodes, on edges, on the camera, on any of them together.
+// Energies on parameter blocks: on nodes, edges, the camera, or several of them together.
 //
-// A functor is what Ceres differentiates, with one argument a block:
+// A functor is what Ceres differentiates. It has one argument for each block:
 //   struct MyFunctor {
 //     static constexpr int kNumResiduals = 3;
 //     template <typename T> bool operator()(const T* node, T* residuals) const;
 //   };
-// A node's block is laid out as cost_functions/node_parameters.h says.
+// The layout of a node's block is described in cost_functions/node_parameters.h.
 #ifndef CERES_ED_ENERGY_BLOCK_ENERGY_H_
 #define CERES_ED_ENERGY_BLOCK_ENERGY_H_
 
@@ -20,30 +20,31 @@
 
 namespace ceres_ed {
 
-// Blocks whose sizes the compiler knows. A functor's argument for each of them:
-// 12 numbers of a node,
+// Blocks whose sizes the compiler knows. The functor gets one argument for each of them.
+//
+// A node: 12 numbers.
 struct NodeBlock {
   static constexpr int kSize = kNodeSize;
   int node = -1;
 
   BlockRef ref() const { return BlockRef::Node(node); }
 };
-// the unit quaternion x y z w of R_c (camera_from_map),
+// The rotation R_c of camera_from_map: a unit quaternion x y z w.
 struct CameraRotationBlock {
   static constexpr int kSize = kRotationSize;
 
   BlockRef ref() const { return BlockRef::CameraRotation(); }
 };
-// and T_c, 3 numbers in map units.
+// The translation T_c of camera_from_map: 3 numbers in map units.
 struct CameraTranslationBlock {
   static constexpr int kSize = kTranslationSize;
 
   BlockRef ref() const { return BlockRef::CameraTranslation(); }
 };
 
-// Adds the residual of `functor` on `blocks`, which are its arguments in this order:
+// Adds the residual of `functor` on `blocks`, which become its arguments in this order:
 //   AddBlockResidual(sink, 1.0, MyFunctor{}, NodeBlock{j}, NodeBlock{k}, CameraRotationBlock{});
-// `weight` >= 0 multiplies its cost.
+// `weight` >= 0 is a factor of its cost.
 template <typename Functor, typename... Blocks>
 void AddBlockResidual(ResidualSink* sink, double weight, Functor functor, Blocks... blocks) {
   using Cost = ceres::AutoDiffCostFunction<Functor, Functor::kNumResiduals, Blocks::kSize...>;
@@ -54,7 +55,7 @@ void AddBlockResidual(ResidualSink* sink, double weight, Functor functor, Blocks
             weight);
 }
 
-// An energy whose residuals a function adds: `add(const EnergyContext&, ResidualSink*)`.
+// An energy whose residuals are added by a function `add(const EnergyContext&, ResidualSink*)`.
 template <typename Add>
 class FunctionEnergy final : public EnergyTerm {
  public:
@@ -70,14 +71,15 @@ class FunctionEnergy final : public EnergyTerm {
   Add add_;
 };
 
-// The energy whose residuals `add` adds: any number, on any blocks and points.
+// Returns an energy whose residuals are added by `add`: any number, on any blocks and points.
 template <typename Add>
 std::unique_ptr<EnergyTerm> MakeEnergy(EnergyKind kind, Add add) {
   return std::make_unique<FunctionEnergy<Add>>(kind, std::move(add));
 }
 
-// One residual a node. `make(const EnergyContext&, int node)` returns its functor, or an optional
-// one where some nodes have none; the functor sees the node: operator()(const T* node, T*).
+// Returns an energy with one residual for each node. `make(const EnergyContext&, int node)` returns
+// the functor, or an optional one if some nodes have no residual. The functor sees the node:
+// operator()(const T* node, T*).
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachNode(EnergyKind kind, MakeFunctor make) {
   return MakeEnergy(kind, [make](const EnergyContext& context, ResidualSink* sink) {
@@ -89,9 +91,10 @@ std::unique_ptr<EnergyTerm> ForEachNode(EnergyKind kind, MakeFunctor make) {
   });
 }
 
-// One residual an edge, of which there are two between neighbours, one each way.
-// `make(const EnergyContext&, const GraphEdge&)` returns its functor, or an optional one; it sees
-// both nodes: operator()(const T* from, const T* to, T*).
+// Returns an energy with one residual for each directed edge. There are two edges between
+// neighbours, one in each direction. `make(const EnergyContext&, const GraphEdge&)` returns the
+// functor, or an optional one if some edges have no residual. The functor sees both nodes:
+// operator()(const T* from, const T* to, T*).
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachEdge(EnergyKind kind, MakeFunctor make) {
   return MakeEnergy(kind, [make](const EnergyContext& context, ResidualSink* sink) {

@@ -6,10 +6,11 @@
 
 namespace ceres_ed {
 
-// Returns a registry that has the energies of catalogue/.
+// Returns a new registry with the energies of catalogue/.
 EnergyRegistry BuiltinEnergies();
 
-// Adds them to a registry: CHECK-fails when one of their names is taken. Call it first.
+// Adds these energies to `registry`. Fails a CHECK if one of their names is taken, so call it
+// before energies of your own are registered.
 void RegisterBuiltinEnergies(EnergyRegistry* registry);
 
 }  // namespace ceres_ed

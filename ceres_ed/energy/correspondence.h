@@ -1,4 +1,4 @@
-// Matched pairs, as energies see them.
+// Matched pairs of points, as they are passed to energies.
 #ifndef CERES_ED_ENERGY_CORRESPONDENCE_H_
 #define CERES_ED_ENERGY_CORRESPONDENCE_H_
 
@@ -9,34 +9,37 @@
 
 namespace ceres_ed {
 
-// A point of the map and where it was observed.
+// A point of the map and the position at which it was observed.
 struct Correspondence {
-  // Index into EnergyContext::points.
+  // The index of the point in EnergyContext::points.
   int point = -1;
-  // Index into EnergyContext::match_details; -1 where no more is known than what is here.
+  // The index of more data about the pair in EnergyContext::match_details; -1 if there are none.
   int detail = -1;
-  // In the camera frame where there is a camera, else in the map frame. Map units.
+  // The observed position, in map units. It is in the camera frame if there is a camera, otherwise
+  // in the map frame.
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  // Unit normal of the target surface in the same frame (a fit takes the mean of both surfaces');
-  // zero where none is known.
+  // The unit normal of the target surface in the same frame; zero if it is unknown. (A fit uses the
+  // mean of the normals of both surfaces.)
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  // >= 0, no unit: share of this observation in the sum.
+  // The weight of this observation in the sum, >= 0, without a unit.
   double weight = 1.0;
 };
 
-// What else is known of a matched pair. Vectors are in the frame of Correspondence::target.
+// More data about a matched pair. Vectors are in the frame of Correspondence::target.
 struct MatchDetail {
-  // Unit normals of the two surfaces, the source's as it was warped when the pair was matched; zero
-  // where none is known. Signs may be at odds where a surface knows its normals only up to sign.
+  // The unit normals of the two surfaces; zero if unknown. That of the source is taken from the
+  // surface as it was warped when the pair was matched. The two may point to opposite sides if a
+  // surface knows its normals only up to sign.
   Eigen::Vector3d source_normal = Eigen::Vector3d::Zero();
   Eigen::Vector3d target_normal = Eigen::Vector3d::Zero();
-  // Brightness of the point and of the target there, in [0, 1]; NaN where it isn't known.
+  // The brightness of the point and of the target, in [0, 1]; NaN if unknown.
   double source_intensity = std::numeric_limits<double>::quiet_NaN();
   double target_intensity = std::numeric_limits<double>::quiet_NaN();
-  // How the target's brightness changes along its tangent plane, per map unit; zero where
-  // target_intensity isn't known.
+  // The gradient of the target's brightness along its tangent plane, per map unit; zero if
+  // target_intensity is unknown.
   Eigen::Vector3d intensity_gradient = Eigen::Vector3d::Zero();
 
+  // Returns whether the brightness of both is known.
   bool HasIntensities() const {
     return std::isfinite(source_intensity) && std::isfinite(target_intensity);
   }

@@ -1,12 +1,13 @@
-// All that an energy of your own needs. Three ways in, by what its functor sees:
+// Includes everything that is needed to write an energy of your own. There are three ways,
+// depending on what the functor sees:
 //
 //   a warped point      ForEachPoint, ForEachMatch, ForEachDetailedMatch, ForEachLandmark
 //                         (point_energy.h)
 //   one or two nodes    ForEachNode, ForEachEdge (block_energy.h)
 //   anything else       MakeEnergy with AddPointResidual, AddPointsResidual, AddBlockResidual
 //
-// Each gives an EnergyTerm for EnergyRegistry::Register. Weights, losses, held blocks, PR and PI
-// nodes, the solvers and all strategies need no more of it.
+// Each returns an EnergyTerm for EnergyRegistry::Register(). Weights, losses, constant blocks, PR
+// and PI nodes, the solvers and all strategies then work without further code.
 #ifndef CERES_ED_ENERGY_CUSTOM_ENERGY_H_
 #define CERES_ED_ENERGY_CUSTOM_ENERGY_H_
 

@@ -1,8 +1,9 @@
-// What an energy is: one physical term of the objective (rotation, regularization, point-to-plane).
+// The interface of an energy: one physical term of the objective (for example rotation,
+// regularization or point-to-plane).
 //
-// A term turns what is known (EnergyContext) into Ceres cost functions and hands them to a sink. It
-// never weighs them and never makes them robust: that is the problem builder's part, so that the
-// same residuals yield weighted and raw costs.
+// A term turns its input (EnergyContext) into Ceres cost functions and passes them to a sink. It
+// does not apply its weight or a robust loss. The problem builder applies both, so that the same
+// residuals give weighted and raw costs.
 #ifndef CERES_ED_ENERGY_ENERGY_H_
 #define CERES_ED_ENERGY_ENERGY_H_
 
@@ -25,26 +26,31 @@
 
 namespace ceres_ed {
 
-// An observation makes the nodes that its residuals touch PR (point relevant); a prior doesn't.
+// The kind of an energy. An observation makes the nodes that its residuals touch PR (point
+// relevant); a prior does not.
 enum class EnergyKind { kObservation, kPrior };
 
+// The type of a parameter.
 enum class ParameterType { kReal, kInteger, kFlag };
 
-// A parameter of an energy, as users set it (`--energy=NAME:param=value`). Values are doubles; an
-// integer has no fraction and a flag is 0 or 1.
+// A parameter of an energy, as users set it (`--energy=NAME:param=value`). Values are doubles. An
+// integer has no fraction, and a flag is 0 or 1.
 struct EnergyParameter {
   std::string name;
   ParameterType type = ParameterType::kReal;
-  // "-" where it has none. Lengths are in map units, in ed_fit source diagonals.
+  // The unit; "-" if there is none. Lengths are in map units. In ed_fit the unit is the diagonal of
+  // the source.
   std::string unit = "-";
+  // The allowed range, both ends included.
   double minimum = 0.0;
   double maximum = 0.0;
   double default_value = 0.0;
-  // One line.
+  // A description in one line.
   std::string doc;
 };
 
-// Parameters in a line: RealParameter("height", "length", -10.0, 10.0, 0.0, "where the floor is").
+// The following functions return a parameter of one type, for example
+//   RealParameter("height", "length", -10.0, 10.0, 0.0, "where the floor is").
 inline EnergyParameter RealParameter(std::string name,
                                      std::string unit,
                                      double minimum,
@@ -79,32 +85,33 @@ inline EnergyParameter FlagParameter(std::string name, bool default_value, std::
           std::move(doc)};
 }
 
-// What a registry says of an energy.
+// The description of an energy in a registry.
 struct EnergyInfo {
   std::string name;
-  // One line; what the energy wants.
+  // What the energy aims at, in one line.
   std::string summary;
-  // The residual, with its source ("Eq. 5").
+  // The residual as an equation, with its source ("Eq. 5").
   std::string equation;
-  // Unit of the residual.
+  // The unit of the residual.
   std::string unit;
   EnergyKind kind = EnergyKind::kPrior;
   std::vector<EnergyParameter> parameters;
-  // The plugin that it came with ("plugin './mine.so'"); empty for others. Set by the loader.
+  // The plugin from which it was loaded ("plugin './mine.so'"); empty if there is none. The loader
+  // sets it.
   std::string origin;
 };
 
-// Returns "energy 'mine' of plugin './mine.so'": what a message about it begins with.
+// Returns "energy 'mine' of plugin './mine.so'", with which a message about the energy begins.
 inline std::string DescribeEnergy(const std::string& name, const std::string& origin) {
   return "energy '" + name + "'" + (origin.empty() ? "" : " of " + origin);
 }
 
-// A parameter block that a residual touches.
+// A reference to a parameter block that a residual uses.
 struct BlockRef {
   enum class Kind { kNode, kCameraRotation, kCameraTranslation };
 
   Kind kind = Kind::kNode;
-  // Node index; -1 for the camera.
+  // The index of the node; -1 for the camera.
   int node = -1;
 
   static BlockRef Node(int node) { return {Kind::kNode, node}; }
@@ -112,7 +119,7 @@ struct BlockRef {
   static BlockRef CameraTranslation() { return {Kind::kCameraTranslation, -1}; }
 };
 
-// The parameter block of `state` that `block` names.
+// Returns the parameter block of `state` to which `block` refers.
 inline const double* BlockPointer(const DeformationState& state, const BlockRef& block) {
   switch (block.kind) {
     case BlockRef::Kind::kCameraRotation:
@@ -125,65 +132,69 @@ inline const double* BlockPointer(const DeformationState& state, const BlockRef&
   return state.node(block.node);
 }
 
-// What energies may look at. Pointers are never null unless said so; lists may be empty.
+// The input of an energy. Pointers are not null unless a comment says so; lists may be empty.
 struct EnergyContext {
   const DeformationGraph* graph = nullptr;
-  // Points at rest, map units, and the nodes that carry them.
+  // The points at rest, in map units, and the nodes to which they are bound.
   const std::vector<Eigen::Vector3d>* points = nullptr;
   const Skinning* skinning = nullptr;
-  // Found by matching; changes from iteration to iteration.
+  // The pairs found by matching. They change from iteration to iteration.
   const std::vector<Correspondence>* correspondences = nullptr;
-  // More of them, by Correspondence::detail; null where matching wasn't asked for it.
+  // More data about these pairs, indexed by Correspondence::detail; null if matching was not asked
+  // for them.
   const std::vector<MatchDetail>* match_details = nullptr;
-  // Given by the user (landmarks, pinned points); stays.
+  // The pairs given by the user (landmarks, pinned points). They do not change.
   const std::vector<Correspondence>* landmarks = nullptr;
-  // Whether warped points go on into a camera frame (Eq. 1 with R_c, T_c).
+  // True if warped points are taken into the camera frame (Eq. 1 with R_c, T_c).
   bool has_camera = false;
-  // Where the camera is thought to be before the solve.
+  // The expected camera pose before the solve.
   CameraPose camera_prior;
-  // t_j where each node is thought to be before the solve, one a node; null where nothing is known.
+  // The expected t_j of each node before the solve; null if nothing is known.
   const std::vector<Eigen::Vector3d>* node_prior = nullptr;
-  // t_j of each node one frame ago; null where there was none, as in a fit.
+  // The t_j of each node one frame ago; null if there was none, as in a fit.
   const std::vector<Eigen::Vector3d>* node_previous = nullptr;
-  // Faces over `points`, counter-clockwise seen from outside; null where there are none.
+  // The triangles over `points`, counter-clockwise as seen from outside; null if there are none.
   const std::vector<std::array<int, 3>>* triangles = nullptr;
 };
 
-// Residuals in arrays (residual_store.h).
+// Residuals in arrays, see residual_store.h.
 class ResidualStore;
+// A function that makes an empty store.
 using ResidualStoreFactory = std::unique_ptr<ResidualStore> (*)();
 
-// Where an energy puts its residuals.
+// The receiver of an energy's residuals.
 class ResidualSink {
  public:
   virtual ~ResidualSink() = default;
 
-  // `blocks` in the order of the cost function's parameter blocks. `weight` >= 0 multiplies this
-  // residual's (robust) cost on top of the weight of its energy.
+  // Adds a residual. `blocks` are in the order of the cost function's parameter blocks. `weight` >=
+  // 0 is a factor of this residual's (robust) cost, in addition to the weight of its energy.
   virtual void Add(std::unique_ptr<ceres::CostFunction> cost,
                    const BlockRef* blocks,
                    int num_blocks,
                    double weight = 1.0) = 0;
 
-  // For those who write residuals of a new form (point_energy.h and residual_store.h do the rest):
-  // this sink's store that `make` makes, made when it is first asked for; null where the sink takes
-  // cost functions alone.
+  // The two functions below are needed only for residuals of a new form; point_energy.h and
+  // residual_store.h call them for you.
+  //
+  // Returns this sink's store of the kind that `make` creates. It is created at the first call.
+  // Returns null if the sink takes only cost functions.
   virtual ResidualStore* FindStore(ResidualStoreFactory /*make*/) { return nullptr; }
-  // Adds the residual that was last added to `store`.
+  // Adds the residual that was added to `store` last.
   virtual void AddStored(const ResidualStore* /*store*/,
                          const BlockRef* /*blocks*/,
                          int /*num_blocks*/,
                          double /*weight*/) {}
 };
 
-// One term of the objective, with its parameters set.
+// One term of the objective, with the values of its parameters.
 class EnergyTerm {
  public:
   virtual ~EnergyTerm() = default;
 
   virtual EnergyKind kind() const = 0;
 
-  // Adds all residuals of this term for `context`. Callable any number of times.
+  // Adds all residuals of this term for `context`. May be called any number of times.
   virtual void AddResiduals(const EnergyContext& context, ResidualSink* sink) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// What a registry has, for people to read.
+// Lists of the energies in a registry, for people to read.
 #ifndef CERES_ED_ENERGY_ENERGY_LISTING_H_
 #define CERES_ED_ENERGY_ENERGY_LISTING_H_
 
@@ -8,12 +8,11 @@
 
 namespace ceres_ed {
 
-// Returns every energy of `registry` in the order of their names, each with a blank line behind it:
-// kind, what it wants, residual, unit, plugin, and its parameters with type, unit, range and
-// default.
+// Returns a text on every energy of `registry`, sorted by name and separated by blank lines: kind,
+// aim, residual, unit, plugin, and its parameters with type, unit, range and default.
 std::string ListEnergies(const EnergyRegistry& registry);
 
-// The same in Markdown: a heading and, where there are parameters, a table an energy.
+// Returns the same in Markdown: for each energy a heading and, if it has parameters, a table.
 std::string ListEnergiesAsMarkdown(const EnergyRegistry& registry);
 
 }  // namespace ceres_ed

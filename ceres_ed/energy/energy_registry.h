@@ -1,4 +1,4 @@
-// The energies that a program knows, by name.
+// The energies of a program, by name.
 #ifndef CERES_ED_ENERGY_ENERGY_REGISTRY_H_
 #define CERES_ED_ENERGY_ENERGY_REGISTRY_H_
 
@@ -15,19 +15,22 @@
 
 namespace ceres_ed {
 
-// Values of all parameters of one energy: the given ones, checked, and defaults for the rest.
+// The values of all parameters of one energy: the given ones, which are checked, and the defaults
+// of the others.
 class ParameterValues {
  public:
-  // `given` must name parameters of `info` and be in their ranges; the error lists the known ones.
+  // Returns the values. The result is an error if `given` has a name that is not a parameter of
+  // `info` (the error lists the known ones) or a value that is out of range.
   static StatusOr<ParameterValues> Create(const EnergyInfo& info,
                                           const std::map<std::string, double>& given);
 
-  // The value of a parameter that the energy has declared. Any other name throws
-  // std::invalid_argument, which EnergyRegistry::Create turns into its error.
+  // Returns the value of a parameter that the energy has declared. Any other name throws
+  // std::invalid_argument, which EnergyRegistry::Create() turns into its error.
   double Get(const std::string& name) const;
+  // Does the same for a flag: returns whether the value is not 0.
   bool GetFlag(const std::string& name) const { return Get(name) != 0.0; }
 
-  // Whether anyone has asked for the value.
+  // Returns whether the value was read.
   bool WasRead(const std::string& name) const { return read_.count(name) != 0; }
 
  private:
@@ -35,27 +38,30 @@ class ParameterValues {
   mutable std::set<std::string> read_;
 };
 
-// An explicit object: no singleton, nothing registers itself.
+// A set of energies by name. It is an explicit object: there is no singleton, and nothing registers
+// itself.
 class EnergyRegistry {
  public:
+  // Creates a term from the values of its parameters.
   using Factory = std::function<std::unique_ptr<EnergyTerm>(const ParameterValues&)>;
 
-  // Error: the name is taken or not snake_case, a parameter is there twice or has a name that every
-  // energy has (weight, loss, loss_width), or its default is out of its range.
+  // Adds an energy. Returns an error if its name is taken or is not snake_case, if a parameter
+  // occurs twice or has a name that every energy has (weight, loss, loss_width), or if a default is
+  // out of range.
   Status Register(EnergyInfo info, Factory factory);
 
-  // What energies that are registered from now on get as their EnergyInfo::origin.
+  // Sets the EnergyInfo::origin of all energies that are registered from now on.
   void SetOrigin(std::string origin) { origin_ = std::move(origin); }
 
-  // All energies in the order of their names.
+  // Returns the descriptions of all energies, sorted by name.
   std::vector<const EnergyInfo*> List() const;
 
-  // Null where there is none of this name.
+  // Returns the description of an energy, or null if there is none of this name.
   const EnergyInfo* Find(const std::string& name) const;
 
-  // A term with its parameters set. Error: unknown energy or parameter, value out of range, a given
-  // parameter that the factory did not ask for, a factory that throws or makes a term of another
-  // kind than it says.
+  // Returns a term with the given parameters. Returns an error for an unknown energy or parameter,
+  // for a value out of range, for a given parameter that the factory did not read, and for a
+  // factory that throws, returns null, or makes a term of another kind than its description says.
   StatusOr<std::unique_ptr<EnergyTerm>> Create(
       const std::string& name, const std::map<std::string, double>& parameters) const;
 

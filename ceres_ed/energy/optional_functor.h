@@ -1,4 +1,4 @@
-// Functors that may be there or not.
+// Functors that are optional.
 #ifndef CERES_ED_ENERGY_OPTIONAL_FUNCTOR_H_
 #define CERES_ED_ENERGY_OPTIONAL_FUNCTOR_H_
 
@@ -7,7 +7,8 @@
 
 namespace ceres_ed {
 
-// visit(functor), for a functor that is there: what makes functors may leave some out.
+// Calls visit(functor) if there is a functor. A function that makes functors may return an
+// std::optional to leave some out.
 template <typename Functor, typename Visit>
 void VisitFunctor(Functor functor, const Visit& visit) {
   visit(std::move(functor));

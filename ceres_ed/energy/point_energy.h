@@ -1,4 +1,4 @@
-// Energies on warped points: functors that see a point, or several, and no graph.
+// Energies on warped points: their functors see one point or several, and no graph.
 #ifndef CERES_ED_ENERGY_POINT_ENERGY_H_
 #define CERES_ED_ENERGY_POINT_ENERGY_H_
 
@@ -20,15 +20,15 @@
 
 namespace ceres_ed {
 
-// Where a functor sees its point.
+// The frame of the point that a functor sees.
 enum class PointFrame {
-  // In the camera frame where there is a camera: that of what was observed.
+  // The frame of the observations: the camera frame if there is a camera, otherwise the map frame.
   kObserved,
-  // In the map frame always.
+  // Always the map frame.
   kMap,
 };
 
-// The point `index` of the context with all that its warp needs.
+// Returns point `index` of the context with everything that is needed to warp it.
 inline BoundPoint BindContextPoint(const EnergyContext& context, int index) {
   const Binding binding = (*context.skinning)[index];
   return BoundPoint(
@@ -38,8 +38,8 @@ inline BoundPoint BindContextPoint(const EnergyContext& context, int index) {
       [&](int i) -> const Eigen::Vector3d& { return context.graph->position(binding.nodes[i]); });
 }
 
-// Adds the residual of a point functor (cost_functions/warped_point_cost.h) on point `index`.
-// `weight` >= 0 multiplies its cost.
+// Adds the residual of a point functor (cost_functions/warped_point_cost.h) on point `index` of the
+// context. `weight` >= 0 is a factor of its cost.
 template <typename Functor>
 void AddPointResidual(const EnergyContext& context,
                       int index,
@@ -56,6 +56,7 @@ void AddPointResidual(const EnergyContext& context,
     blocks[num_blocks++] = BlockRef::CameraRotation();
     blocks[num_blocks++] = BlockRef::CameraTranslation();
   }
+  // Use a store if the sink has one; otherwise make a cost function.
   if (auto* store = FindStore<FunctorPointStore<Functor>>(sink); store != nullptr) {
     store->Add(std::move(functor), (*context.points)[index], index, binding, has_camera);
     sink->AddStored(store, blocks.data(), num_blocks, weight);
@@ -68,7 +69,9 @@ void AddPointResidual(const EnergyContext& context,
             weight);
 }
 
-// Adds the residual of a functor on several points (cost_functions/warped_points_cost.h).
+// Adds the residual of a functor on several points of the context
+// (cost_functions/warped_points_cost.h). `weight` >= 0 is a factor of its cost. Points may share
+// nodes.
 template <typename Functor, std::size_t kNumPoints>
 void AddPointsResidual(const EnergyContext& context,
                        const std::array<int, kNumPoints>& indices,
@@ -110,8 +113,8 @@ void AddPointsResidual(const EnergyContext& context,
             weight);
 }
 
-// One residual a point. `make(const EnergyContext&, int point)` returns its functor, or an optional
-// one where some points have none.
+// Returns an energy with one residual for each point. `make(const EnergyContext&, int point)`
+// returns the functor, or an optional one if some points have no residual.
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachPoint(EnergyKind kind,
                                          MakeFunctor make,
@@ -125,11 +128,11 @@ std::unique_ptr<EnergyTerm> ForEachPoint(EnergyKind kind,
   });
 }
 
-// One list of observations in a context: matched or given.
+// A list of observations in a context: the matched ones or the given ones.
 using CorrespondenceList = const std::vector<Correspondence>* EnergyContext::*;
 
-// One residual a correspondence of `list`, with its weight. `make(const Correspondence&)` returns
-// its point functor, or an optional one.
+// Returns an energy with one residual for each correspondence of `list`, with the weight of the
+// correspondence. `make(const Correspondence&)` returns its point functor, or an optional one.
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachCorrespondence(CorrespondenceList list, MakeFunctor make) {
   return MakeEnergy(EnergyKind::kObservation,
@@ -142,14 +145,14 @@ std::unique_ptr<EnergyTerm> ForEachCorrespondence(CorrespondenceList list, MakeF
                     });
 }
 
-// The same of what was matched.
+// Does the same for matched pairs.
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachMatch(MakeFunctor make) {
   return ForEachCorrespondence(&EnergyContext::correspondences, std::move(make));
 }
 
-// The same where more is known of a pair: `make(const Correspondence&, const MatchDetail&)`, with
-// nothing known (MatchDetail()) where matching has left no detail.
+// Does the same for matched pairs of which more is known: `make(const Correspondence&, const
+// MatchDetail&)`. If matching left no detail, it gets an empty one (MatchDetail()).
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachDetailedMatch(MakeFunctor make) {
   return MakeEnergy(
@@ -165,7 +168,7 @@ std::unique_ptr<EnergyTerm> ForEachDetailedMatch(MakeFunctor make) {
       });
 }
 
-// The same of what the user gave: landmarks.
+// Does the same for the pairs given by the user: landmarks.
 template <typename MakeFunctor>
 std::unique_ptr<EnergyTerm> ForEachLandmark(MakeFunctor make) {
   return ForEachCorrespondence(&EnergyContext::landmarks, std::move(make));

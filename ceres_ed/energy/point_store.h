@@ -1,4 +1,4 @@
-// Residuals on warped points, in arrays.
+// Residuals on warped points, stored in arrays.
 #ifndef CERES_ED_ENERGY_POINT_STORE_H_
 #define CERES_ED_ENERGY_POINT_STORE_H_
 
@@ -15,28 +15,29 @@
 
 namespace ceres_ed {
 
-// A point at rest, map units, and the nodes that carry it. Its residual's blocks are these nodes,
-// then, with a camera, R_c and T_c.
+// A point at rest, in map units, and the number of nodes to which it is bound. The blocks of its
+// residual are these nodes, then, with a camera, R_c and T_c.
 struct StoredPoint {
   Eigen::Vector3d position;
-  // Of the context: equal numbers make it likely that two points are the same.
+  // The index of the point in the context. If two are equal, the points are probably the same.
   int index = -1;
-  // Into the weights of the store.
+  // The index of its first weight in the store.
   int first_weight = 0;
   int num_nodes = 0;
   bool has_camera = false;
 };
 
-// What all stores of point functors have.
+// The common part of all stores of point functors.
 class PointStore : public ResidualStore {
  public:
+  // The point of residual `index`.
   const StoredPoint& point(int index) const { return points_[index]; }
-  // w_i(v), one a node.
+  // The weights w_i(v), one for each node.
   const double* weights(int index) const { return &weights_[points_[index].first_weight]; }
 
-  // Residuals `indices[k]` at the warped points `warped` (3 numbers each): num_residuals() numbers
-  // each, and their row-major derivatives by the point unless `jacobians` is null. False when one
-  // can't be evaluated.
+  // Evaluates the residuals `indices[k]`, for k < count, at the warped points `warped` (3 numbers
+  // each). Writes num_residuals() numbers for each and, unless `jacobians` is null, their
+  // derivatives with respect to the point (row-major). Returns false if one can't be evaluated.
   virtual bool EvaluateAtPoints(int count,
                                 const int* indices,
                                 const double* warped,
@@ -72,6 +73,7 @@ class PointStore : public ResidualStore {
     CountOne();
   }
 
+  // Returns the point with the weights and positions of its nodes.
   BoundPoint Bind(int index, const BlockRef* blocks, const DeformationGraph& graph) const {
     return BoundPoint(
         points_[index].position,
@@ -85,13 +87,13 @@ class PointStore : public ResidualStore {
   std::vector<double> weights_;
 };
 
-// Those of one point functor (cost_functions/warped_point_cost.h).
+// The store of one type of point functor (cost_functions/warped_point_cost.h).
 template <typename Functor>
 class FunctorPointStore final : public PointStore {
  public:
   FunctorPointStore() : PointStore(Functor::kNumResiduals) {}
 
-  // `index` is that of the point in its context.
+  // Adds a residual. `index` is the index of the point in its context.
   void Add(Functor functor,
            const Eigen::Vector3d& position,
            int index,

@@ -1,4 +1,4 @@
-// The residuals of E_rot and E_reg, in arrays.
+// The residuals of E_rot and E_reg, stored in arrays.
 #ifndef CERES_ED_ENERGY_PRIOR_STORES_H_
 #define CERES_ED_ENERGY_PRIOR_STORES_H_
 
@@ -12,11 +12,13 @@
 
 namespace ceres_ed {
 
-// E_rot; blocks: node j. There is nothing to keep.
+// The residuals of E_rot (Eq. 5). Blocks: node j. They have no data, so only their number is
+// stored.
 class RotationStore final : public ResidualStore {
  public:
   RotationStore() : ResidualStore(Form::kRotation, RotationCost::kNumResiduals) {}
 
+  // Adds the residual of one node.
   void Add() { CountOne(); }
 
   std::unique_ptr<ceres::CostFunction> MakeCost(int /*index*/,
@@ -34,11 +36,12 @@ class RotationStore final : public ResidualStore {
   }
 };
 
-// E_reg; blocks: nodes j and k of an edge.
+// The residuals of E_reg (Eq. 6). Blocks: nodes j and k of an edge.
 class EdgeStore final : public ResidualStore {
  public:
   EdgeStore() : ResidualStore(Form::kEdge, RegularizationCost::kNumResiduals) {}
 
+  // Adds the residual of one edge.
   void Add(const RegularizationCost& cost) {
     costs_.push_back(cost);
     CountOne();

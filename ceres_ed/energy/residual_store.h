@@ -1,8 +1,8 @@
-// Residuals kept in arrays.
+// Residuals stored in arrays.
 //
-// A ceres::CostFunction is an object on the heap with a vector of block sizes; residuals that come
-// by the ten thousand, anew in every round, are kept without them. Cost functions are made of them
-// where a ceres::Problem is built.
+// A ceres::CostFunction is an object on the heap with a vector of block sizes. Residuals that are
+// created by the ten thousand in every round are stored without such objects. They are turned into
+// cost functions only if a ceres::Problem is built.
 #ifndef CERES_ED_ENERGY_RESIDUAL_STORE_H_
 #define CERES_ED_ENERGY_RESIDUAL_STORE_H_
 
@@ -14,11 +14,11 @@
 
 namespace ceres_ed {
 
-// Residuals of one form, numbered in the order in which they were added. Which blocks each touches
-// is known to whoever holds the store.
+// Residuals of one form, numbered in the order in which they were added. The blocks that each of
+// them uses are known to the owner of the store.
 class ResidualStore {
  public:
-  // Forms that the block solver has products of its own for.
+  // The forms for which the block solver has its own products.
   enum class Form { kPoint, kEdge, kRotation };
 
   virtual ~ResidualStore() = default;
@@ -27,18 +27,19 @@ class ResidualStore {
 
   Form form() const { return form_; }
   int size() const { return size_; }
-  // Of each, the same for all.
+  // The number of values of each residual; it is the same for all.
   int num_residuals() const { return num_residuals_; }
 
-  // Takes all residuals out and keeps their memory.
+  // Removes all residuals but keeps their memory.
   virtual void Clear() { size_ = 0; }
 
-  // Residual `index`, on `blocks`, as a cost function.
+  // Returns residual `index`, on `blocks`, as a cost function.
   virtual std::unique_ptr<ceres::CostFunction> MakeCost(int index,
                                                         const BlockRef* blocks,
                                                         const DeformationGraph& graph) const = 0;
 
-  // num_residuals() numbers at `state`; false where they can't be evaluated.
+  // Writes num_residuals() numbers: the residual `index` at `state`. Returns false if it can't be
+  // evaluated.
   virtual bool Evaluate(int index,
                         const BlockRef* blocks,
                         const DeformationGraph& graph,
@@ -48,7 +49,7 @@ class ResidualStore {
  protected:
   ResidualStore(Form form, int num_residuals) : form_(form), num_residuals_(num_residuals) {}
 
-  // To be called once a residual.
+  // Must be called once for each residual that is added.
   void CountOne() { ++size_; }
 
  private:
@@ -57,13 +58,15 @@ class ResidualStore {
   int size_ = 0;
 };
 
+// Returns a new store of the given type.
 template <typename Store>
 std::unique_ptr<ResidualStore> MakeStore() {
   return std::make_unique<Store>();
 }
 
-// The store of a type that `sink` has; null where it takes cost functions alone. Its address tells
-// a factory from that of another shared object's type of the same name.
+// Returns the store of the given type in `sink`, or null if the sink takes only cost functions. The
+// type is identified by the address of MakeStore<Store>, which differs between shared objects even
+// if they have types of the same name.
 template <typename Store>
 Store* FindStore(ResidualSink* sink) {
   return static_cast<Store*>(sink->FindStore(&MakeStore<Store>));

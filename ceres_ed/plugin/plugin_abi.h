@@ -1,11 +1,11 @@
-// What a shared object exports to bring energies into a program (`--plugin=LIB.so`).
+// The functions that a shared object exports to add energies to a program (`--plugin=LIB.so`).
 //
 //   ceres_ed::Status RegisterMine(ceres_ed::EnergyRegistry* registry) {
 //     return registry->Register(MyInfo(), MakeMyTerm);
 //   }
 //   CERES_ED_PLUGIN(RegisterMine)
 //
-// Build it with ceres_ed_add_plugin(NAME SOURCE ...), which find_package(ceres_ed) brings along.
+// Build it with ceres_ed_add_plugin(NAME SOURCE ...), which find_package(ceres_ed) provides.
 #ifndef CERES_ED_PLUGIN_PLUGIN_ABI_H_
 #define CERES_ED_PLUGIN_PLUGIN_ABI_H_
 
@@ -19,9 +19,9 @@
 #define CERES_ED_STRINGIFY_EXPANDED(x) #x
 #define CERES_ED_STRINGIFY(x) CERES_ED_STRINGIFY_EXPANDED(x)
 
-// Everything that two binaries must share to pass C++ objects to one another: fields "name value"
-// with ";" between them. A literal and no function, for the dynamic linker may give a plugin the
-// program's copy of an inline function, and the check would compare the program with itself.
+// Everything in which two binaries must agree to exchange C++ objects: fields "name value"
+// separated by ";". It is a literal and not a function, since the dynamic linker may give a plugin
+// the program's copy of an inline function. The check would then compare the program with itself.
 // clang-format off
 #define CERES_ED_PLUGIN_ABI                                                     \
   "ceres_ed " CERES_ED_VERSION_STRING                                           \
@@ -33,13 +33,13 @@
   ";pointer_bytes " CERES_ED_STRINGIFY(__SIZEOF_POINTER__)
 // clang-format on
 
-// Names of the two exported functions, their C++ types being `const char*()` and
+// The names of the two exported functions. Their C++ types are `const char*()` and
 // `void(ceres_ed::EnergyRegistry*, ceres_ed::Status*)`.
 #define CERES_ED_PLUGIN_ABI_SYMBOL ceres_ed_plugin_abi
 #define CERES_ED_PLUGIN_REGISTER_SYMBOL ceres_ed_plugin_register
 
-// Defines both functions. `register_function` is a Status(EnergyRegistry*). Once a shared object,
-// in a .cc file, outside of any namespace.
+// Defines both functions. `register_function` is a Status(EnergyRegistry*). Use it once in a shared
+// object, in a .cc file, outside of any namespace.
 #define CERES_ED_PLUGIN(register_function)                                                     \
   extern "C" __attribute__((visibility("default"))) const char* CERES_ED_PLUGIN_ABI_SYMBOL() { \
     return CERES_ED_PLUGIN_ABI;                                                                \

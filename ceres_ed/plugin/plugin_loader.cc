@@ -32,7 +32,7 @@ Function* Find(void* library, const char* name) {
   return reinterpret_cast<Function*>(dlsym(library, name));
 }
 
-// "Eigen 3.3.9 (here Eigen 3.4.0), ..." for every field that differs.
+// Returns "Eigen 3.3.9 (here Eigen 3.4.0), ..." with every field that differs.
 std::string DescribeDifference(const std::string& theirs, const std::string& ours) {
   const std::vector<std::string_view> there = SplitLines(theirs, ';');
   const std::vector<std::string_view> here = SplitLines(ours, ';');
@@ -82,14 +82,15 @@ Status LoadPlugin(const std::string& path, EnergyRegistry* registry) {
   CHECK(registry != nullptr);
   if (!std::ifstream(path))
     return Error(path, "cannot be read: " + std::generic_category().message(errno));
-  // dlopen looks for a bare name in the system's folders only.
+  // dlopen searches for a name without a slash in the system's folders only.
   const std::string file = path.find('/') == std::string::npos ? "./" + path : path;
   void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
   if (library == nullptr) {
     // The text is that of the calling thread. NOLINTNEXTLINE(concurrency-mt-unsafe)
     return Error(path, std::string("cannot be loaded: ") + dlerror());
   }
-  // Never closed, not even after an error: some energies may have been registered by then.
+  // The library is never closed, not even after an error, since some of its energies may have been
+  // registered by then.
   return RegisterFrom(library, path, registry);
 }
 

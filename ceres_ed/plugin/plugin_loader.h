@@ -1,4 +1,4 @@
-// Energies from shared objects.
+// Loads energies from shared objects.
 #ifndef CERES_ED_PLUGIN_PLUGIN_LOADER_H_
 #define CERES_ED_PLUGIN_PLUGIN_LOADER_H_
 
@@ -9,18 +9,18 @@
 
 namespace ceres_ed {
 
-// Returns ok when the shared object `path` (see plugin_abi.h) has added its energies to `registry`.
-// A path without a slash is a file of the working directory. The object stays loaded until the
-// process ends, since the registry holds functions of it.
+// Loads the shared object `path` (see plugin_abi.h), which adds its energies to `registry`. A path
+// without a slash is a file in the working directory. The object stays loaded until the process
+// ends, since the registry has pointers to its functions.
 //
-// Errors name the file: it cannot be read, is no shared object, is no plugin, was built against
-// another ceres_ed, Ceres, Eigen or alignment (which one, there and here), or its register function
-// failed or threw. Nothing of the plugin runs before the versions are known to agree, but static
-// initializers.
+// The error names the file and the reason: it can't be read, is no shared object, is no plugin, was
+// built against another ceres_ed, Ceres, Eigen or alignment (with both versions), or its register
+// function failed or threw. Before the versions are known to agree, no code of the plugin runs
+// except its static initializers.
 Status LoadPlugin(const std::string& path, EnergyRegistry* registry);
 
-// The same for several, with ";" between their paths; none where `paths` is empty. Error: of the
-// first that can't be loaded.
+// Loads several plugins, whose paths are separated by ";". An empty `paths` loads none. The error
+// is that of the first plugin that can't be loaded.
 Status LoadPlugins(const std::string& paths, EnergyRegistry* registry);
 
 }  // namespace ceres_ed

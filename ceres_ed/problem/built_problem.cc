@@ -1,4 +1,4 @@
-// How ProblemBuilder makes a ceres::Problem.
+// The part of ProblemBuilder that builds a ceres::Problem.
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/util/describe_throw.h>
 
@@ -30,7 +30,8 @@ double* MutableBlockPointer(DeformationState* state, const BlockRef& block) {
   return const_cast<double*>(BlockPointer(*state, block));
 }
 
-// A cost function of somebody else, in a solver whose threads no exception may leave.
+// A wrapper of a cost function that turns exceptions into a failed evaluation, since no exception
+// may leave the threads of the solver.
 class GuardedCost final : public ceres::CostFunction {
  public:
   explicit GuardedCost(std::shared_ptr<const ceres::CostFunction> cost) : cost_(std::move(cost)) {
@@ -56,7 +57,7 @@ ceres::Problem::Options ProblemOptions() {
   options.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  // Sizes and aliasing are checked once, by the sink.
+  // The sink has already checked sizes and aliasing.
   options.disable_all_safety_checks = true;
   return options;
 }
@@ -68,7 +69,7 @@ BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState
   BuiltProblem built;
   built.problem = std::make_unique<ceres::Problem>(ProblemOptions());
   built.camera_variable = config.camera_variable;
-  // Residuals of one term and equal weight share a loss.
+  // Residuals of one term that have equal weights share a loss.
   std::map<std::pair<int, double>, ceres::LossFunction*> losses;
   const auto loss_for = [&](int term, double weight) -> ceres::LossFunction* {
     if (term < 0) return nullptr;
@@ -90,12 +91,13 @@ BuiltProblem ProblemBuilder::Build(const ProblemConfig& config, DeformationState
       if (block.kind == BlockRef::Kind::kNode) touched_nodes[block.node] = 1;
     }
     built.costs.push_back(std::make_shared<GuardedCost>(residual.CostFunction(graph_)));
-    // Ceres evaluates a cost function it doesn't own only through const methods.
+    // Ceres calls only const methods of a cost function that it does not own.
     built.problem->AddResidualBlock(const_cast<ceres::CostFunction*>(built.costs.back().get()),
                                     loss_for(residual.term, residual.weight),
                                     blocks.data(),
                                     residual.num_blocks);
   }
+  // Hold the blocks that residuals touch and that are not variable.
   for (int j = 0; j < graph_.num_nodes(); ++j) {
     if (touched_nodes[j] == 0) continue;
     if (config.variable_nodes[j] != 0) {

@@ -46,8 +46,8 @@ bool IsEliminated(const BlockRef& block, const ProblemConfig& config) {
          config.eliminated_nodes[block.node] != 0;
 }
 
-// Whether a residual on these blocks is part of the problem; `cut` leaves it out where it crosses
-// the seam.
+// Returns whether a residual on these blocks is part of the problem. With `cut`, it is left out if
+// it crosses the seam.
 bool IsIncluded(const BlockRef* blocks, int num_blocks, bool cut, const ProblemConfig& config) {
   int num_variable = 0;
   for (int i = 0; i < num_blocks; ++i) {
@@ -59,7 +59,8 @@ bool IsIncluded(const BlockRef* blocks, int num_blocks, bool cut, const ProblemC
 
 }  // namespace
 
-// Checks each residual once, when it is collected. After the first that doesn't fit it takes none.
+// The sink of a term. It checks each residual once, when it is collected, and takes no more after
+// the first that does not fit.
 class ProblemBuilder::TermSink final : public ResidualSink {
  public:
   TermSink(Term* term, int num_nodes, bool has_camera)
@@ -235,7 +236,7 @@ int SelectedResidual::num_residuals() const {
 std::shared_ptr<const ceres::CostFunction> SelectedResidual::CostFunction(
     const DeformationGraph& graph) const {
   if (store != nullptr) return store->MakeCost(index, blocks, graph);
-  // Somebody else's.
+  // The cost function has another owner, so the pointer does not delete it.
   return std::shared_ptr<const ceres::CostFunction>(std::shared_ptr<void>(), cost);
 }
 
@@ -273,6 +274,7 @@ void ProblemBuilder::Select(const ProblemConfig& config,
       selected->back().term = t;
     }
   }
+  // The residuals that replace eliminated nodes.
   for (const ExtraResidual& extra : config.extra_residuals) {
     const int num_blocks = static_cast<int>(extra.blocks.size());
     if (!IsIncluded(extra.blocks.data(), num_blocks, /*cut=*/false, config)) continue;
@@ -315,6 +317,7 @@ TermEnergy ProblemBuilder::Evaluate(const Term& term, const DeformationState& st
       valid = selected.cost->Evaluate(pointers.data(), residuals.data(), nullptr);
     });
     valid = valid && thrown.empty();
+    // Add up weight * rho(|r|^2) / 2 and |r|^2 / 2.
     double squared_norm = valid ? 0.0 : std::numeric_limits<double>::quiet_NaN();
     for (const double r : residuals) squared_norm += r * r;
     double rho[3] = {squared_norm, 1.0, 0.0};

@@ -1,4 +1,4 @@
-// Turns energies into Ceres problems: the full one, or any part of it.
+// Builds Ceres problems from energies: the full problem, or any part of it.
 #ifndef CERES_ED_PROBLEM_PROBLEM_BUILDER_H_
 #define CERES_ED_PROBLEM_PROBLEM_BUILDER_H_
 
@@ -19,11 +19,12 @@
 
 namespace ceres_ed {
 
-// A ceres::Problem over the blocks of one DeformationState, with the losses that it uses. The cost
-// functions of energies that came as such stay with the builder: it and the state must outlive
-// this, and the state must not be resized.
+// A ceres::Problem over the blocks of one DeformationState, with the losses that it uses. Cost
+// functions that energies added as such stay with the builder. Therefore the builder and the state
+// must outlive this object, and the state must not be resized.
 struct BuiltProblem {
-  // Declared ahead of the problem, which refers to them.
+  // These are declared before the problem, which refers to them, so that they are destroyed after
+  // it.
   std::vector<std::shared_ptr<const ceres::CostFunction>> costs;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses;
   std::unique_ptr<ceres::Manifold> rotation_manifold;
@@ -32,22 +33,22 @@ struct BuiltProblem {
   bool camera_variable = false;
 };
 
-// One residual block of a subproblem; what it points to belongs to the builder, or to the config
-// where it is one of its extra residuals.
+// One residual block of a subproblem. The objects to which it points belong to the builder, or to
+// the config if it is one of its extra residuals.
 struct SelectedResidual {
-  // Null where it is residual `index` of `store`.
+  // Null if it is residual `index` of `store`.
   const ceres::CostFunction* cost = nullptr;
   const ResidualStore* store = nullptr;
   int index = -1;
   const BlockRef* blocks = nullptr;
   int num_blocks = 0;
-  // -1 for an extra residual.
+  // The index of its term; -1 for an extra residual.
   int term = -1;
-  // Weight of the term times that of the residual.
+  // The weight of the term times the weight of the residual.
   double weight = 1.0;
 
   int num_residuals() const;
-  // `cost`, or one that is made of what the store has.
+  // Returns `cost`, or a new cost function made from the store.
   std::shared_ptr<const ceres::CostFunction> CostFunction(const DeformationGraph& graph) const;
 };
 
@@ -55,6 +56,7 @@ struct SelectedResidual {
 // The graph must outlive the builder.
 class ProblemBuilder {
  public:
+  // `has_camera` says whether residuals may use the camera.
   ProblemBuilder(const DeformationGraph& graph, bool has_camera);
   ~ProblemBuilder();
   ProblemBuilder(const ProblemBuilder&) = delete;
@@ -63,28 +65,30 @@ class ProblemBuilder {
   const DeformationGraph& graph() const { return graph_; }
   bool has_camera() const { return has_camera_; }
 
-  // Adds a term with no residuals yet and returns its index. `label` names it in summaries;
-  // weight >= 0.
+  // Adds a term without residuals and returns its index. `label` names it in summaries. The weight
+  // must be finite and >= 0.
   int AddTerm(std::string label, EnergyKind kind, double weight = 1.0, const LossSpec& loss = {});
 
-  // What messages about the term name beside its label (EnergyInfo::origin).
+  // Sets the origin of a term (EnergyInfo::origin), which messages name together with its label.
   void SetOrigin(int term, std::string origin);
 
-  // Collects (or, after new correspondences, collects anew) the residuals of a term. An energy that
-  // throws or adds a residual that doesn't fit (block sizes, a node or camera that isn't there, a
-  // block twice, a weight that isn't finite and >= 0) leaves the term empty, and status() says why.
+  // Collects the residuals of a term; call it again after new correspondences. If the energy
+  // throws, or adds a residual that does not fit (wrong block sizes, a node or camera that does not
+  // exist, a block twice, a weight that is not finite and >= 0), the term is empty and status()
+  // gives the reason.
   void CollectResiduals(int term, const EnergyTerm& energy, const EnergyContext& context);
 
-  // The first thing that went wrong when residuals were collected, with the energy's name: nothing
-  // can be solved then.
+  // Returns the first error that occurred while residuals were collected, with the name of the
+  // energy. If there is one, no problem can be solved.
   Status status() const;
 
-  // The first residual that can't be used at `state`: it throws, it fails, it or a derivative of it
-  // isn't finite. The sentence names energy, plugin, residual and its nodes. What a solver says
-  // when it fails; as slow as ceres::Problem::Evaluate.
+  // Returns an error for the first residual that can't be used at `state`: it throws, it fails, or
+  // it or one of its derivatives is not finite. The sentence names energy, plugin, residual and
+  // nodes. A solver calls this when it fails. It takes as long as ceres::Problem::Evaluate.
   Status CheckResiduals(const DeformationState& state) const;
 
-  // Takes effect in problems that are built from now on.
+  // The following two functions change the weight (finite, >= 0) or the loss of a term in all
+  // problems that are built from now on.
   void SetWeight(int term, double weight);
   void SetLoss(int term, const LossSpec& loss);
 
@@ -92,31 +96,34 @@ class ProblemBuilder {
   const std::string& label(int term) const { return terms_[term].label; }
   double weight(int term) const { return terms_[term].weight; }
   const LossSpec& loss(int term) const { return terms_[term].loss; }
-  // Residual blocks of a term.
+  // Returns the number of residual blocks of a term.
   int NumResidualBlocks(int term) const;
 
-  // One entry a node: nonzero where an observation residual of positive weight touches it (PR).
+  // Returns one entry for each node: nonzero if it is PR (point relevant), which means that an
+  // observation residual of positive weight touches it.
   std::vector<char> PointRelevantNodes() const;
 
-  // The residuals that a problem of `config` has, in the order in which they were added, then the
-  // extra ones: those of positive weight that touch something variable and nothing eliminated, less
-  // the priors that kCut takes out at the seam. Looks at `config`, which must outlive the result.
+  // Returns the residuals of the problem of `config`: those of positive weight that touch something
+  // variable and no eliminated node, without the priors that kCut removes at the seam. They are in
+  // the order in which they were added; the extra residuals come last. The result refers to
+  // `config`, which must outlive it.
   std::vector<SelectedResidual> Select(const ProblemConfig& config) const;
-  // The same into a vector that is there.
+  // Does the same and reuses the memory of `selected`.
   void Select(const ProblemConfig& config, std::vector<SelectedResidual>* selected) const;
 
-  // The problem of `config` over the blocks of `state`. Blocks that residuals touch and that aren't
-  // variable are constant.
+  // Returns the problem of `config` over the blocks of `state`. Blocks that residuals touch and
+  // that are not variable are set constant.
   BuiltProblem Build(const ProblemConfig& config, DeformationState* state) const;
 
-  // The costs of all residuals at `state`, whatever a config would leave out. A residual that can't
-  // be evaluated makes its term's costs NaN, and so does a term that could not be collected.
+  // Returns the costs of all residuals at `state`, including those that a config would leave out.
+  // The costs of a term are NaN if one of its residuals can't be evaluated or if the term could not
+  // be collected.
   EnergySummary Evaluate(const DeformationState& state) const;
 
  private:
-  // A residual block: where its function and its blocks stand in the term.
+  // A residual block: the indices of its cost function and of its blocks in the term.
   struct Residual {
-    // Null where it is in Term::costs.
+    // Null if its cost function is in Term::costs.
     const ResidualStore* store = nullptr;
     int index = 0;
     double weight = 1.0;
@@ -133,7 +140,7 @@ class ProblemBuilder {
     std::vector<Residual> residuals;
     std::vector<BlockRef> blocks;
     std::vector<std::unique_ptr<ceres::CostFunction>> costs;
-    // Kept when residuals are collected anew, with their memory.
+    // The stores are kept, with their memory, when residuals are collected again.
     struct NamedStore {
       ResidualStoreFactory factory = nullptr;
       std::unique_ptr<ResidualStore> store;

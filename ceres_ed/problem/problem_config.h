@@ -1,6 +1,6 @@
-// Levels are data: which parameters a subproblem may move, what becomes of the edges that cross its
-// seam, and what stands in for nodes that have been eliminated. The builder knows nothing of
-// levels.
+// A description of a subproblem as data: the parameters that it may change, what happens to the
+// edges that cross its seam, and the residuals that replace eliminated nodes. The builder does not
+// know the levels of the paper; they are configs.
 #ifndef CERES_ED_PROBLEM_PROBLEM_CONFIG_H_
 #define CERES_ED_PROBLEM_PROBLEM_CONFIG_H_
 
@@ -14,41 +14,44 @@
 
 namespace ceres_ed {
 
-// A residual beyond those of the builder's terms, of weight 1 and without a loss: what eliminated
-// nodes leave on those that remain. The cost function must outlive what is built with it.
+// A residual in addition to those of the builder's terms, of weight 1 and without a loss. It is
+// what eliminated nodes leave for the remaining ones. The cost function must outlive everything
+// that is built with it.
 struct ExtraResidual {
   const ceres::CostFunction* cost = nullptr;
-  // In the order of the cost function's parameter blocks.
+  // The blocks, in the order of the cost function's parameter blocks.
   std::vector<BlockRef> blocks;
 };
 
-// A subset of the full problem. Everything that isn't variable is held by
+// A subset of the full problem. Everything that is not variable is held constant by
 // ceres::Problem::SetParameterBlockConstant; residuals that touch nothing variable are left out.
 struct ProblemConfig {
-  // One entry a node: nonzero where the node may move.
+  // One entry for each node: nonzero if the node may move.
   std::vector<char> variable_nodes;
   bool camera_variable = false;
   SeamEdges seam_edges = SeamEdges::kKeep;
-  // One entry a node: nonzero where it has been eliminated, which leaves out every residual that
-  // touches it. Empty where none is. No variable node is eliminated.
+  // One entry for each node: nonzero if it has been eliminated. Every residual that touches an
+  // eliminated node is left out. Empty if no node is eliminated. A variable node can't be
+  // eliminated.
   std::vector<char> eliminated_nodes;
-  // In place of what is left out.
+  // The residuals that replace those left out.
   std::vector<ExtraResidual> extra_residuals;
 
   int NumVariableNodes() const;
 };
 
-// The batch problem: every node, and the camera where there is one.
+// Returns the batch problem: every node, and the camera if there is one.
 ProblemConfig FullConfig(int num_nodes, bool has_camera);
 
-// Level I (Eq. 14): the PR nodes, `rings` rings of PI nodes around them, and the camera.
+// Returns Level I (Eq. 14): the PR nodes, `rings` rings of PI nodes around them, and the camera may
+// move.
 ProblemConfig LevelOneConfig(const DeformationGraph& graph,
                              const std::vector<char>& point_relevant,
                              bool has_camera,
                              SeamEdges seam_edges,
                              int rings);
 
-// Level II (Eq. 15): the PI nodes alone; PR nodes and camera are held.
+// Returns Level II (Eq. 15): only the PI nodes may move; PR nodes and the camera are held constant.
 ProblemConfig LevelTwoConfig(const std::vector<char>& point_relevant);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// What users see of a problem: how its seam is treated, and what its energies come to.
+// Types of a problem for users: the treatment of its seam, and the costs of its energies.
 #ifndef CERES_ED_PROBLEM_PROBLEM_TYPES_H_
 #define CERES_ED_PROBLEM_PROBLEM_TYPES_H_
 
@@ -10,11 +10,11 @@
 
 namespace ceres_ed {
 
-// What happens to a prior residual between a variable and a held node.
+// What happens to a prior residual between a variable node and a constant one.
 enum class SeamEdges {
-  // It stays, and pulls toward where the held node was ("fixing Phi_2", Eq. 14).
+  // It is kept, and pulls toward the position of the constant node ("fixing Phi_2", Eq. 14).
   kKeep,
-  // It is left out, as in the paper's figure on node types. The seam may tear.
+  // It is left out, as in the paper's figure on node types. The surface may tear at the seam.
   kCut,
 };
 
@@ -22,14 +22,14 @@ constexpr std::array<NamedValue<SeamEdges>, 2> NamesOf(SeamEdges) {
   return {{{"keep", SeamEdges::kKeep}, {"cut", SeamEdges::kCut}}};
 }
 
-// The cost of one term. With the sum over residual blocks i of the term:
+// The cost of one term. The sums are over its residual blocks i.
 struct TermEnergy {
   std::string label;
-  // sum_i weight * weight_i * rho(|r_i|^2) / 2: what Ceres minimises.
+  // sum_i weight * weight_i * rho(|r_i|^2) / 2, which Ceres minimises.
   double weighted = 0.0;
-  // sum_i |r_i|^2 / 2, free of weights and losses.
+  // sum_i |r_i|^2 / 2, without weights and losses.
   double raw = 0.0;
-  // Number of scalar residuals.
+  // The number of scalar residuals.
   int residuals = 0;
 };
 
@@ -37,7 +37,7 @@ struct TermEnergy {
 struct EnergySummary {
   std::vector<TermEnergy> terms;
 
-  // The objective (Eq. 3), half of it as Ceres counts.
+  // Returns the objective (Eq. 3), with the factor 1/2 of Ceres.
   double Total() const;
 };
 

@@ -1,4 +1,4 @@
-// How ProblemBuilder finds the residual that keeps a solver from going on.
+// The part of ProblemBuilder that finds the residual because of which a solver fails.
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/util/describe_throw.h>
 
@@ -11,7 +11,7 @@
 namespace ceres_ed {
 namespace {
 
-// " (node 3, node 8)"
+// Returns a text such as " (node 3, node 8)".
 std::string DescribeBlocks(const BlockRef* blocks, int num_blocks) {
   std::string text;
   for (int i = 0; i < num_blocks; ++i) {
@@ -26,7 +26,7 @@ bool AllFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
 }
 
-// What is wrong with a cost function at `blocks`; empty where nothing is.
+// Returns what is wrong with a cost function at `blocks`; empty if nothing is.
 std::string FindFault(const ceres::CostFunction& cost, const std::vector<const double*>& blocks) {
   std::vector<double> residuals(cost.num_residuals(), 0.0);
   std::vector<std::vector<double>> jacobians;

@@ -9,7 +9,7 @@ namespace ceres_ed {
 namespace {
 
 constexpr double kNotWritten = std::numeric_limits<double>::quiet_NaN();
-// Doubles behind an array that must stay as they are.
+// The number of doubles behind each array that must not be changed.
 constexpr int kGuard = 16;
 constexpr double kGuardValue = -7.25e77;
 
@@ -107,7 +107,7 @@ RowMajorMatrix NumericJacobian(const ceres::CostFunction& cost,
   std::vector<std::vector<double>> moved = blocks;
   for (Eigen::Index column = 0; column < jacobian.cols(); ++column) {
     const double x = blocks[block][column];
-    // Neville's table: row i has the differences of step i, extrapolated 0 to i times.
+    // Neville's table: row i has the difference of step i, extrapolated 0 to i times.
     std::array<std::array<Eigen::VectorXd, kLevels>, kLevels> table;
     Eigen::VectorXd error = Eigen::VectorXd::Constant(num_residuals, HUGE_VAL);
     double h = step;

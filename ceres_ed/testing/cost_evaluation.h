@@ -1,5 +1,5 @@
-// One evaluation of a cost function with everything that can be wrong about it, and numeric
-// Jacobians: what the law checkers are made of.
+// Evaluates a cost function once and records every fault, and computes numeric Jacobians. The
+// checkers of the laws are built from these functions.
 #ifndef CERES_ED_TESTING_COST_EVALUATION_H_
 #define CERES_ED_TESTING_COST_EVALUATION_H_
 
@@ -13,35 +13,36 @@ namespace ceres_ed {
 
 using RowMajorMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// What an evaluation gave.
+// The result of an evaluation.
 struct CostEvaluation {
-  // What CostFunction::Evaluate returned.
+  // The value that CostFunction::Evaluate returned.
   bool evaluated = false;
-  // Values that were not written are NaN.
+  // The residuals. Values that were not written are NaN.
   Eigen::VectorXd residuals;
-  // One a block; 0 x 0 where it was not asked for.
+  // One Jacobian for each block; 0 x 0 if it was not asked for.
   std::vector<RowMajorMatrix> jacobians;
-  // True when something was written behind the end of an array.
+  // True if something was written behind the end of an array.
   bool overrun = false;
 
+  // Returns whether all residuals and Jacobians are finite.
   bool IsFinite() const;
 };
 
-// Returns the residuals and the Jacobians of the blocks with a non-zero `wanted`; the others are
-// null pointers, as Ceres passes them for constant blocks.
+// Returns the residuals and the Jacobians of the blocks with a non-zero `wanted`. For the other
+// blocks the function passes null pointers, as Ceres does for constant blocks.
 CostEvaluation EvaluateCost(const ceres::CostFunction& cost,
                             const std::vector<std::vector<double>>& blocks,
                             const std::vector<char>& wanted);
 
-// Returns the residuals alone: the array of Jacobians is null.
+// Returns only the residuals. The array of Jacobians is null.
 CostEvaluation EvaluateResiduals(const ceres::CostFunction& cost,
                                  const std::vector<std::vector<double>>& blocks);
 
-// True when residuals, and the Jacobians that both have, are the same to the bit.
+// Returns true if the residuals, and the Jacobians that both have, have the same bits.
 bool EqualToTheBit(const CostEvaluation& a, const CostEvaluation& b);
 
-// Returns the Jacobian of one block by Ridders' extrapolation of central differences from the first
-// step `step` > 0; NaN where the cost cannot be evaluated.
+// Returns the Jacobian of one block by Ridders' extrapolation of central differences, beginning
+// with the step `step` > 0. It is NaN if the cost can't be evaluated.
 RowMajorMatrix NumericJacobian(const ceres::CostFunction& cost,
                                const std::vector<std::vector<double>>& blocks,
                                int block,

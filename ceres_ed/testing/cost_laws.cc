@@ -13,7 +13,7 @@
 namespace ceres_ed {
 namespace {
 
-// Beyond this the subsets of blocks are too many to try all of them.
+// With more blocks than this, the subsets are too many to try all of them.
 constexpr int kMaxBlocksForAllSubsets = 10;
 
 struct NamedState {
@@ -124,7 +124,7 @@ class LawChecker {
                                 ? std::abs(after.residuals.norm() - all.residuals.norm())
                                 : (after.residuals - all.residuals).norm();
       const double scale = std::max(1.0, all.residuals.norm());
-      // Written so that NaN is a violation.
+      // The comparison treats NaN as a violation.
       if (after.evaluated && change <= options_.invariance_tolerance * scale) continue;
       Report(state.name, ": the residuals change by ", change, " under ", invariance.name);
     }
@@ -179,7 +179,8 @@ class LawChecker {
     }
   }
 
-  // All blocks among them: a second evaluation must equal the first.
+  // Returns the subsets to try. The set of all blocks is among them, since a second evaluation must
+  // give the same values.
   std::vector<std::vector<char>> BlockSubsets() const {
     std::vector<std::vector<char>> subsets;
     if (num_blocks() <= kMaxBlocksForAllSubsets) {

@@ -19,7 +19,7 @@ bool SameBlocks(const std::vector<BlockRef>& a, const std::vector<BlockRef>& b) 
       });
 }
 
-// Every `step`-th of `count`, so that at most `limit` are left.
+// Returns a step such that every `step`-th of `count` elements is at most `limit` elements.
 int Stride(std::size_t count, int limit) {
   return std::max(1, static_cast<int>((count + limit - 1) / limit));
 }
@@ -76,7 +76,7 @@ class EnergyLawChecker {
     if (!adds_any) Report("it adds no residuals, with a camera or without one");
   }
 
-  // True when residuals were added.
+  // Checks the residuals of one problem. Returns true if residuals were added.
   bool CheckProblem(const TestProblem& problem, std::optional<double> squared_norm_at_rest) {
     const std::vector<CollectedResidual> residuals = CollectResiduals(*energy_, problem.Context());
     if (!CheckBlocks(problem, residuals)) return true;

@@ -1,4 +1,5 @@
-// The laws that every energy obeys, built in or from a plugin, checked without a test framework.
+// The laws that every energy must obey, whether it is built in or from a plugin. The checker needs
+// no test framework.
 //
 //   for (const std::string& violation : CheckEnergyLaws(registry, "my_energy")) {
 //     ADD_FAILURE() << violation;
@@ -20,43 +21,45 @@
 
 namespace ceres_ed {
 
-// A motion of graph and camera that an energy does not see.
+// A motion of graph and camera that does not change an energy.
 struct EnergyInvariance {
-  // Ends the sentence "the energy changes under ...".
+  // The end of the sentence "the energy changes under ...".
   std::string name;
+  // Applies the motion to the state.
   std::function<void(const DeformationGraph& graph, DeformationState* state)> motion;
 };
 
-// What an energy says of itself, and on what it is tried.
+// What an energy claims about itself, and the problem on which it is tried.
 struct EnergyClaims {
-  // Parameters to create it with; the defaults for the rest.
+  // The parameters with which it is created. The others have their defaults.
   std::map<std::string, double> parameters;
-  // |r|^2 of each residual while the state is at rest and every correspondence and landmark sits on
-  // its point, and the least that it can be; nothing where no minimum is claimed.
+  // |r|^2 of each residual when the state is at rest and every correspondence and landmark is at
+  // its point. It is the minimum over all states; no value if no minimum is claimed.
   std::optional<double> squared_norm_at_rest = 0.0;
   std::vector<EnergyInvariance> invariances;
-  // The problem that residuals are asked for, with a camera and without one.
+  // The problem for which residuals are added, once with a camera and once without.
   TestProblemOptions problem;
-  // Residuals of each context that go through the cost laws, evenly spread over all; >= 1.
+  // The number of residuals of each context that are checked by the cost laws, >= 1. They are
+  // spread evenly over all residuals.
   int max_residuals = 8;
   CostLawOptions cost;
 };
 
-// Returns one sentence for each violated law; empty when all hold:
-//   - what the registry says of it is complete: summary, equation and unit are there, parameter
-//     names are snake_case, once each and none of weight, loss, loss_width, each with a unit, a doc
-//     and its default in its range;
-//   - every parameter arrives as it was given: both ends of its range create the energy, beyond
-//     them, a fraction for a whole number, and an unknown parameter are refused; each is asked for,
-//     and the term's kind is the registered one;
-//   - with a camera or without one it adds residuals; each touches at least one block (node or
-//     camera), none twice, all of them there, with sizes that fit and a weight >= 0; none touches a
-//     camera that isn't there;
-//   - asked twice it adds the same, to the bit;
-//   - its residuals obey CheckCostLaws, around rest and with targets that are off;
-//   - the claimed motions leave its sum of squares as it is;
-//   - zero normals, targets 1e6 units away, several nodes at one place, pairs without details and
-//     empty lists leave everything finite.
+// Returns one sentence for each violated law; empty if all laws hold:
+//   - The description in the registry is complete: it has a summary, an equation and a unit.
+//     Parameter names are snake_case, occur once, and are none of weight, loss, loss_width. Each
+//     parameter has a unit, a doc, and a default in its range.
+//   - Every parameter arrives as it was given. Both ends of its range create the energy. Values
+//     beyond them, a fraction for an integer, and an unknown parameter are refused. Each parameter
+//     is read, and the kind of the term is the registered one.
+//   - With or without a camera the energy adds residuals. Each touches at least one block (node or
+//     camera), none twice, and all of them exist. The sizes fit, and the weight is >= 0. Without a
+//     camera no residual touches it.
+//   - If it is asked twice, it adds the same residuals with the same bits.
+//   - Its residuals obey CheckCostLaws(), around rest and with targets away from their points.
+//   - The claimed motions do not change its sum of squares.
+//   - With zero normals, targets 1e6 units away, several nodes at one place, pairs without details
+//     and empty lists, everything is finite.
 std::vector<std::string> CheckEnergyLaws(const EnergyRegistry& registry,
                                          const std::string& name,
                                          const EnergyClaims& claims = {});

@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// Keeps every node and point out of one plane.
+// A height that keeps the nodes and points from lying in one plane.
 double Height(double x, double y) { return 0.3 * std::sin(0.9 * x + 0.5 * y); }
 
 Eigen::Vector3d GaussianVector(double deviation, Random* random) {
@@ -36,7 +36,7 @@ void AddNodes(const TestProblemOptions& options, DeformationGraph* graph) {
   }
 }
 
-// Bilinear weights: all four positive inside the cell, their sum 1.
+// Adds a point with bilinear weights. All four are positive inside the cell, and their sum is 1.
 void AddPoint(int column, int row, double u, double v, int rows, TestProblem* problem) {
   const double x = column + u;
   const double y = row + v;
@@ -47,7 +47,8 @@ void AddPoint(int column, int row, double u, double v, int rows, TestProblem* pr
   problem->skinning.Add(nodes.data(), weights.data(), 4);
 }
 
-// With numbers of its own, so that the correspondences are the same with and without details.
+// Adds the details. They use a random generator of their own, so that the correspondences are the
+// same with and without details.
 void AddDetails(std::uint64_t seed, TestProblem* problem) {
   Random random(seed + 1);
   for (Correspondence& c : problem->correspondences) {

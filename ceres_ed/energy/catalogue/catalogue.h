@@ -8,6 +8,9 @@
 
 namespace ceres_ed {
 
+// Each function adds the energy of its name to `registry`, and returns an error if the name is
+// taken.
+
 // Priors.
 Status RegisterRotation(EnergyRegistry* registry);
 Status RegisterRegularization(EnergyRegistry* registry);

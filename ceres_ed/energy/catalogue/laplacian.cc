@@ -1,4 +1,4 @@
-// Smoothness of node motion.
+// Smoothness of the motion of nodes.
 #include <ceres_ed/energy/block_energy.h>
 #include <ceres_ed/energy/catalogue/catalogue.h>
 
@@ -12,7 +12,8 @@
 namespace ceres_ed {
 namespace {
 
-// The residual of node `j` among the nodes that its edges lead to.
+// Adds the residual of node `j` and the nodes to which its edges lead. The weights of these edges
+// are normalised to sum 1.
 void AddLaplacian(const DeformationGraph& graph, int j, ResidualSink* sink) {
   std::map<int, double> alpha;
   double sum = 0.0;

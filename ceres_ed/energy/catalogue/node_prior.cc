@@ -1,4 +1,4 @@
-// Holds nodes near where they are thought to be.
+// Keeps nodes near an expected translation.
 #include <ceres_ed/energy/block_energy.h>
 #include <ceres_ed/energy/catalogue/catalogue.h>
 

@@ -1,8 +1,9 @@
-// Warped points come to where the target is as bright as they are.
+// Moves warped points to where the target is as bright as they are.
 //
-// Brightness is linear around a matched point: a pair that is apart by more than a quarter of a
-// wave of the texture misleads. So do pairs beyond the border of bare points, where borders aren't
-// known: bound MatchingOptions::max_distance there, or give the energy a robust loss.
+// The brightness is taken as linear around a matched point. A pair that is farther apart than a
+// quarter of a wavelength of the texture therefore gives a wrong direction. The same is true for
+// pairs beyond the border of a cloud without triangles, whose borders are unknown. In these cases
+// limit MatchingOptions::max_distance, or give the energy a robust loss.
 #include <ceres_ed/energy/catalogue/catalogue.h>
 #include <ceres_ed/energy/point_energy.h>
 

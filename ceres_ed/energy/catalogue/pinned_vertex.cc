@@ -1,4 +1,4 @@
-// Holds a point where it is at rest.
+// Keeps a point at its rest position.
 #include <ceres_ed/energy/catalogue/catalogue.h>
 #include <ceres_ed/energy/point_energy.h>
 
@@ -21,7 +21,8 @@ Status RegisterPinnedVertex(EnergyRegistry* registry) {
     const int point = static_cast<int>(values.Get("point"));
     const auto add = [point](const EnergyContext& context, ResidualSink* sink) {
       const auto num_points = static_cast<int>(context.points->size());
-      // A tracker's points are those in view, numbered anew in each frame.
+      // The points of a tracker are those in view and are numbered anew in each frame, so a number
+      // does not identify a point.
       if (context.has_camera || num_points == 0) return;
       if (point >= num_points) {
         throw std::invalid_argument("point " + std::to_string(point) + " is not there, expected " +

@@ -1,4 +1,4 @@
-// The distance of a warped point to the tangent plane of what it was matched with.
+// The distance of a warped point from the tangent plane of its matched target point.
 #include <ceres_ed/energy/catalogue/catalogue.h>
 #include <ceres_ed/energy/point_energy.h>
 

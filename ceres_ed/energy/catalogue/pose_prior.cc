@@ -1,4 +1,4 @@
-// Holds the camera near where it is thought to be.
+// Keeps the camera near an expected pose.
 #include <ceres_ed/energy/block_energy.h>
 #include <ceres_ed/energy/catalogue/catalogue.h>
 

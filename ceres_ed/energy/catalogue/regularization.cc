@@ -9,7 +9,8 @@
 namespace ceres_ed {
 namespace {
 
-// By hand rather than by ForEachEdge: the solver has a closed form for what is in this store.
+// This energy does not use ForEachEdge(), since the solver has a closed form for the residuals of
+// EdgeStore.
 class RegularizationEnergy final : public EnergyTerm {
  public:
   EnergyKind kind() const override { return EnergyKind::kPrior; }

@@ -9,7 +9,8 @@
 namespace ceres_ed {
 namespace {
 
-// By hand rather than by ForEachNode: the solver has a closed form for what is in this store.
+// This energy does not use ForEachNode(), since the solver has a closed form for the residuals of
+// RotationStore.
 class RotationEnergy final : public EnergyTerm {
  public:
   EnergyKind kind() const override { return EnergyKind::kPrior; }

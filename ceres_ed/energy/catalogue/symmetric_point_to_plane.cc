@@ -1,4 +1,4 @@
-// The distance of a warped point to what it was matched with, along the mean of both normals.
+// The distance of a warped point from its matched target point along the mean of both normals.
 #include <ceres_ed/energy/catalogue/catalogue.h>
 #include <ceres_ed/energy/point_energy.h>
 
@@ -7,9 +7,9 @@
 namespace ceres_ed {
 namespace {
 
-// (n_s + n_t) / 2, not of unit length: pairs whose normals differ count less. The normals of bare
-// points are known only up to sign: n_s is turned to the side of n_t. The known one where there is
-// only one.
+// Returns (n_s + n_t) / 2. It is not of unit length, so pairs whose normals differ count less.
+// Normals of clouds without triangles are known only up to sign, so n_s is turned to the side of
+// n_t. If only one normal is known, the result is that one.
 Eigen::Vector3d MeanNormal(const Correspondence& c, const MatchDetail& detail) {
   const Eigen::Vector3d& target =
       detail.target_normal.isZero(0.0) ? c.normal : detail.target_normal;

@@ -1,4 +1,4 @@
-// Smoothness in time, for tracking.
+// Smoothness in time, for tracking: nodes stay near their translation of one frame ago.
 #include <ceres_ed/energy/block_energy.h>
 #include <ceres_ed/energy/catalogue/catalogue.h>
 

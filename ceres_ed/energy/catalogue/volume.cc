@@ -1,4 +1,4 @@
-// A closed mesh keeps its volume.
+// Keeps the volume of a closed mesh.
 #include <ceres_ed/energy/block_energy.h>
 #include <ceres_ed/energy/catalogue/catalogue.h>
 #include <ceres_ed/energy/point_energy.h>
@@ -18,8 +18,8 @@ namespace {
 
 using Triangles = std::vector<std::array<int, 3>>;
 
-// Whether each edge between two positions has as many triangles on one side as on the other: then
-// they enclose a volume. Points at the same position count as one.
+// Returns whether the triangles enclose a volume: each edge between two positions must have as many
+// triangles on one side as on the other. Points at the same position count as one.
 bool IsClosed(const std::vector<Eigen::Vector3d>& points, const Triangles& triangles) {
   const std::vector<int> welded = WeldPoints(points);
   std::vector<std::pair<int, int>> edges;
@@ -50,10 +50,11 @@ void AddVolume(const EnergyContext& context, ResidualSink* sink) {
     box.extend(point);
   }
   const double volume = EnclosedVolume(points, triangles, origin);
-  // Two sheets back to back enclose nothing.
+  // Two sheets that lie back to back enclose no volume.
   constexpr double kNothing = 1e-9;
   if (!(std::abs(volume) > kNothing * std::pow(box.diagonal().norm(), 3))) return;
 
+  // The nodes of all vertices, each of them once, are the parameter blocks.
   std::vector<int> block_of_node(context.graph->num_nodes(), -1);
   std::vector<BlockRef> blocks;
   std::vector<VolumeCost::Vertex> vertices;
