@@ -10,29 +10,29 @@
 
 namespace ceres_ed {
 
-// Each Append() is handed to the system at once and in one piece: whatever kills the program, the
-// file ends with a whole row.
+// A file to which rows are appended. Each Append() passes its text to the system at once and in one
+// piece. So the file ends with a complete row even if the program is killed.
 class AppendFile {
  public:
-  // No file: Append() must not be called.
+  // Has no file; Append() must not be called.
   AppendFile() = default;
   ~AppendFile();
   AppendFile(AppendFile&& other) noexcept;
   AppendFile& operator=(AppendFile&& other) noexcept;
 
-  // Returns an empty file at `path`, in the place of an old one, or an error with the system's
+  // Creates an empty file at `path`, which replaces an old one. The error gives the system's
   // reason.
   static StatusOr<AppendFile> Create(const std::string& path);
 
-  // Returns the file at `path`, cut to its first `size` bytes, to go on with. Error: there is none,
-  // or it is shorter.
+  // Opens the file at `path` and cuts it to its first `size` bytes, so that more can be appended.
+  // Returns an error if there is no file or if it is shorter.
   static StatusOr<AppendFile> Reopen(const std::string& path, std::int64_t size);
 
-  // Returns ok when the system has all of `text`; else an error with its reason.
+  // Appends `text`. The error gives the system's reason.
   Status Append(std::string_view text);
 
   bool is_open() const { return descriptor_ >= 0; }
-  // Bytes in the file.
+  // The size of the file in bytes.
   std::int64_t size() const { return size_; }
 
  private:

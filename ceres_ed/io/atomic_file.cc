@@ -23,7 +23,7 @@ constexpr int kMaxNameAttempts = 1000;
 
 }  // namespace
 
-// A std::filebuf loses the errno of the write that failed; this one keeps the first.
+// A std::filebuf loses the errno of a failed write. This buffer keeps the first one.
 class AtomicFile::Buffer : public std::streambuf {
  public:
   explicit Buffer(int descriptor) : descriptor_(descriptor), bytes_(kBufferSize) { ResetArea(); }
@@ -99,14 +99,14 @@ StatusOr<std::unique_ptr<AtomicFile>> AtomicFile::Create(const std::string& path
   struct stat info;
   const bool exists = ::stat(path.c_str(), &info) == 0;
   if (exists && S_ISDIR(info.st_mode)) return WriteError(path, EISDIR);
-  // A rename would replace a file that its owner has write-protected.
+  // This is checked since a rename would replace a file that its owner has protected from writing.
   if (exists && ::access(path.c_str(), W_OK) != 0) return WriteError(path, errno);
 
   int descriptor = -1;
   if (exists && !S_ISREG(info.st_mode)) {
     descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
   } else {
-    // Not mkstemp: its files are private to the user, whatever the umask says.
+    // mkstemp() is not used, since its files are private to the user, whatever the umask is.
     for (int attempt = 0; descriptor < 0 && attempt < kMaxNameAttempts; ++attempt) {
       file->temporary_path_ =
           file->final_path_ + ".tmp." + std::to_string(::getpid()) + "." + std::to_string(attempt);
@@ -134,7 +134,7 @@ std::ostream& AtomicFile::stream() { return *stream_; }
 
 Status AtomicFile::Commit() {
   if (!buffer_->Close()) return WriteError(path_, buffer_->error());
-  // The caller may have set the stream's failure bits itself: then the contents are not complete.
+  // The caller may have set the failure bits of the stream. The contents are then not complete.
   if (!stream_->good()) return Status::Error(path_ + ": cannot write: the contents are incomplete");
   if (temporary_path_.empty()) return Status::Ok();
   if (std::rename(temporary_path_.c_str(), final_path_.c_str()) != 0) {

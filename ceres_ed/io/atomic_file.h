@@ -1,4 +1,4 @@
-// Files that are either the old one or the complete new one, never half of each.
+// Files that are replaced as a whole: a reader sees the old file or the complete new one.
 #ifndef CERES_ED_IO_ATOMIC_FILE_H_
 #define CERES_ED_IO_ATOMIC_FILE_H_
 
@@ -11,22 +11,24 @@
 
 namespace ceres_ed {
 
-// A file under construction. Bytes go to a temporary name in the same directory; Commit() renames
-// it to `path`, and the destructor removes it where there was no Commit(). A symbolic link is
-// followed; a device or pipe (/dev/stdout) is written to directly, for there is nothing to rename.
+// A file that is being written. The bytes go to a temporary file in the same directory. Commit()
+// renames it to `path`; without Commit(), the destructor removes it. A symbolic link is followed. A
+// device or pipe (/dev/stdout) is written to directly, since it can't be renamed.
 class AtomicFile {
  public:
-  // Returns the open file, or an error that names `path` and why it can't be written.
+  // Opens the file. The error names `path` and the reason why it can't be written.
   static StatusOr<std::unique_ptr<AtomicFile>> Create(const std::string& path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  // Where the contents go. Its state need not be checked: Commit() reports a failed write.
+  // Returns the stream for the contents. Its state need not be checked: Commit() reports a failed
+  // write.
   std::ostream& stream();
 
-  // Returns ok when `path` holds everything written to stream(); else an error with the system's
-  // reason (disk full ...), and the old file is as it was. To be called once at most.
+  // Completes the file: after success `path` has everything that was written to stream(). Otherwise
+  // the error gives the system's reason (for example a full disk), and the old file is unchanged.
+  // Call it at most once.
   Status Commit();
 
  private:
@@ -35,13 +37,13 @@ class AtomicFile {
 
   std::string path_;
   std::string final_path_;
-  // Empty when the file is written to directly.
+  // Empty if the file is written to directly.
   std::string temporary_path_;
   std::unique_ptr<Buffer> buffer_;
   std::unique_ptr<std::ostream> stream_;
 };
 
-// Returns ok when `path` holds exactly `contents`; else an error as of AtomicFile.
+// Writes `contents` to `path` by an AtomicFile, with its errors.
 Status WriteFileAtomically(const std::string& path, std::string_view contents);
 
 }  // namespace ceres_ed

@@ -23,10 +23,11 @@ constexpr std::string_view kPoseFields[] = {"tx", "ty", "tz", "qx", "qy", "qz", 
 constexpr std::size_t kNumPoseFields = std::size(kPoseFields);
 constexpr char kPoseHeader[] = " tx ty tz qx qy qz qw";
 
-// Larger than any sensor, small enough that width * height fits an int.
+// The largest width and height. It is larger than any sensor, and width * height fits into an int.
 constexpr int kMaxSize = 32768;
 
-// Why field `index` of a camera file can't have `value`, or nothing.
+// Returns what is expected of field `index` of a camera file if it can't have `value`, otherwise an
+// empty string.
 std::string CameraFieldExpectation(std::size_t index, double value) {
   const std::string_view name = kCameraFields[index];
   if (name == "fx" || name == "fy") return value > 0.0 ? "" : "a focal length > 0 pixels";
@@ -46,7 +47,8 @@ Status CheckCameraField(const std::string& place,
                        ", expected " + expected);
 }
 
-// A quaternion of unit length, but for rounding, is left as it is: what was written reads back.
+// A quaternion that has unit length up to rounding is not changed, so that it is read back as it
+// was written.
 StatusOr<CameraPose> MakePose(const std::string& place, const double (&values)[kNumPoseFields]) {
   CameraPose pose;
   pose.translation = {values[0], values[1], values[2]};
@@ -61,7 +63,7 @@ StatusOr<CameraPose> MakePose(const std::string& place, const double (&values)[k
   return pose;
 }
 
-// The pose behind the first field, which is called `first_name`.
+// Reads the pose after the first field, whose name is `first_name`.
 StatusOr<CameraPose> ParsePose(const TextRow& row, const std::string& first_name) {
   if (row.fields.size() != kNumPoseFields + 1) {
     return Status::Error(row.place + std::to_string(row.fields.size()) +
@@ -77,7 +79,7 @@ StatusOr<CameraPose> ParsePose(const TextRow& row, const std::string& first_name
   return MakePose(row.place, values);
 }
 
-// Appends a row of the pose under `label`, its frame or time.
+// Appends a row with `label` (the frame or time) and the pose.
 Status AppendPose(const std::string& path,
                   double label,
                   const CameraPose& pose,

@@ -13,17 +13,17 @@
 namespace ceres_ed {
 namespace {
 
-// "1 point" or "5 points".
+// Returns "1 point" or "5 points".
 std::string Counted(std::size_t count, const std::string& noun) {
   return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
 }
 
 bool IsUsableCoordinate(const Eigen::Vector3d& point) {
-  // Written so that NaN fails.
+  // The comparison is false for NaN.
   return point.cwiseAbs().maxCoeff() <= kMaxCoordinate && point.allFinite();
 }
 
-// What full red is as a number of `type`.
+// Returns the value of the brightest colour in a property of `type`.
 double LargestColor(PlyType type) {
   switch (type) {
     case PlyType::kInt8:
@@ -208,7 +208,7 @@ class CloudBuilder {
   std::string path_;
   LoadedCloud loaded_;
   const PlyElement* vertices_ = nullptr;
-  // -1 for a dropped one.
+  // -1 for a vertex that was left out.
   std::vector<int> point_of_vertex_;
   std::size_t small_polygons_ = 0;
   std::size_t degenerate_triangles_ = 0;

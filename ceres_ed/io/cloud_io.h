@@ -1,4 +1,4 @@
-// Point clouds and meshes from files, and back into them with everything else preserved.
+// Reads point clouds and meshes from files, and writes them back with everything else preserved.
 #ifndef CERES_ED_IO_CLOUD_IO_H_
 #define CERES_ED_IO_CLOUD_IO_H_
 
@@ -15,51 +15,58 @@
 
 namespace ceres_ed {
 
-// Coordinates of a larger magnitude count as not finite: their squares leave the range of a float.
+// A coordinate with a larger magnitude counts as not finite, since its square does not fit into a
+// float.
 inline constexpr double kMaxCoordinate = 1e18;
 
-// A cloud, the file that it came from, and what had to be left out.
+// A cloud, the file from which it was read, and what was left out.
 struct LoadedCloud {
   PointCloud cloud;
   PlyDocument document;
-  // The row of element 'vertex' behind each point of `cloud`, ascending.
+  // For each point of `cloud`, the row of element 'vertex' from which it comes; ascending.
   std::vector<int> vertex_of_point;
-  // One sentence for each kind of thing that was dropped, with its count.
+  // A sentence for each kind of thing that was left out, with its number.
   std::vector<std::string> warnings;
 };
 
-// Returns the cloud of the file `path`, a PLY unless its name ends as another format of
-// io/mesh/mesh_format.h does: element 'vertex' with x y z of any type; normals from
-// nx ny nz or normal_x normal_y normal_z, brought to unit length, a zero or not finite one as zero;
-// intensities 0.299 R + 0.587 G + 0.114 B from red green blue, in [0, 1] where they are floats and
-// as parts of the largest number where they are integers, NaN where one is not finite;
-// triangles from the list vertex_indices or vertex_index of element 'face', polygons as fans.
-// Dropped with a warning: points that are not finite and the triangles on them, polygons of fewer
-// than three corners, triangles that name a vertex twice. Errors: as of ReadPly; no vertices; no
-// x y z; a face index out of range; more than half of the points not finite.
+// Reads the cloud of the file `path`. It is a PLY, unless the ending of its name is that of another
+// format (see io/mesh/mesh_format.h). The cloud is made of:
+//   - Points are x y z of element 'vertex', of any type.
+//   - Normals are nx ny nz or normal_x normal_y normal_z, scaled to unit length. A normal that is
+//     zero or not finite becomes zero.
+//   - Intensities are 0.299 R + 0.587 G + 0.114 B from red green blue. Floats are in [0, 1];
+//     integers are divided by the largest number of their type. An intensity is NaN if a colour is
+//     not finite.
+//   - Triangles are from the list vertex_indices or vertex_index of element 'face'. Polygons are
+//     divided into fans of triangles.
+//
+// Left out with a warning: points that are not finite and their triangles, polygons of fewer than
+// three corners, and triangles that use a vertex twice. Errors are those of ReadPly(), and: there
+// are no vertices, there is no x y z, a face index is out of range, or more than half of the points
+// are not finite.
 StatusOr<LoadedCloud> LoadCloud(const std::string& path);
 
-// LoadCloud for a document that is in memory; `path` names it in messages.
+// Does the same for a document in memory. `path` names it in messages.
 StatusOr<LoadedCloud> CloudFromDocument(const std::string& path, PlyDocument document);
 
-// Returns `original` with x y z of row vertex_of_point[i] replaced by points[i], and its normal,
-// where the original has one and `normals` is not null, by (*normals)[i]. All other rows, elements,
-// properties, comments, the order and the format are the original's; types too, but for integer
-// coordinates or normals, which become double.
+// Returns `original` with new points: x y z of row vertex_of_point[i] becomes points[i], and its
+// normal, if the original has normals and `normals` is not null, becomes (*normals)[i]. All other
+// rows, elements, properties and comments, the order and the format are not changed. Types are not
+// changed either, except for integer coordinates or normals, which become double.
 PlyDocument MoveVertices(const PlyDocument& original,
                          const std::vector<int>& vertex_of_point,
                          const std::vector<Eigen::Vector3d>& points,
                          const std::vector<Eigen::Vector3d>* normals);
 
-// Returns ok when `path` holds MoveVertices(original, ...), in the format that its ending names;
-// else an error with the system's reason.
+// Writes MoveVertices(original, ...) to `path`, in the format of the ending of its name. The error
+// gives the system's reason.
 Status SaveCloud(const std::string& path,
                  const PlyDocument& original,
                  const std::vector<int>& vertex_of_point,
                  const std::vector<Eigen::Vector3d>& points,
                  const std::vector<Eigen::Vector3d>* normals);
 
-// The same for a cloud as LoadCloud gave it.
+// Does the same for a cloud that was read by LoadCloud().
 Status SaveCloud(const std::string& path,
                  const LoadedCloud& original,
                  const std::vector<Eigen::Vector3d>& points,
@@ -67,18 +74,18 @@ Status SaveCloud(const std::string& path,
 
 struct CloudWriteOptions {
   PlyFormat format = PlyFormat::kBinaryLittleEndian;
-  // Positions and normals as double instead of float.
+  // If true, positions and normals are written as double, otherwise as float.
   bool double_precision = false;
-  // Lines of text for the header.
+  // Comment lines for the header.
   std::vector<std::string> comments;
-  // Empty, or red green blue for each point.
+  // Empty, or red, green and blue of each point.
   std::vector<std::array<std::uint8_t, 3>> colors;
-  // More properties of the vertices, such as `error`: scalar, with one value a point.
+  // More properties of the vertices, for example `error`: scalars, with one value for each point.
   std::vector<PlyProperty> columns;
 };
 
-// Returns ok when `path` holds `cloud` (points, normals and triangles where there are any) with the
-// columns of `options`; else an error with the system's reason.
+// Writes `cloud` to `path` (its points, and its normals and triangles if there are any) with the
+// columns of `options`. The error gives the system's reason.
 Status WriteCloud(const std::string& path,
                   const PointCloud& cloud,
                   const CloudWriteOptions& options = {});

@@ -13,8 +13,8 @@
 namespace ceres_ed {
 namespace {
 
-// Overwrites the vectors of some rows. An integer column becomes double: rounding positions to
-// whole numbers would destroy them.
+// Replaces the vectors of some rows. A column of integers becomes double, since rounding positions
+// to integers would destroy them.
 void ReplaceRows(const std::vector<Eigen::Vector3d>& vectors,
                  const std::vector<int>& rows,
                  const VertexColumns& columns,

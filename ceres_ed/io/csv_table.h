@@ -1,4 +1,4 @@
-// Tables of fields with commas between them.
+// Reads tables whose fields are separated by commas.
 #ifndef CERES_ED_IO_CSV_TABLE_H_
 #define CERES_ED_IO_CSV_TABLE_H_
 
@@ -12,17 +12,17 @@ namespace ceres_ed {
 
 // A line of a table.
 struct CsvRow {
-  // "frames.csv: line 3: ", what an error begins with.
+  // "frames.csv: line 3: ", the beginning of an error message.
   std::string place;
-  // At least one, without blanks around them; a field may be empty.
+  // The fields, at least one, without blanks around them. A field may be empty.
   std::vector<std::string> fields;
 
-  // Ok when there are `count` fields.
+  // Returns an error unless there are `count` fields.
   Status ExpectFields(std::size_t count) const;
 };
 
-// Returns the lines of a file that are neither blank nor a comment; text behind # is left out.
-// Error: the file can't be read.
+// Returns the lines of a file that are not blank and not a comment. Text after # is removed.
+// Returns an error if the file can't be read.
 StatusOr<std::vector<CsvRow>> ReadCsvRows(const std::string& path);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// A deformation graph as a PLY, to look at.
+// Writes a deformation graph as a PLY, so that it can be displayed.
 #ifndef CERES_ED_IO_GRAPH_IO_H_
 #define CERES_ED_IO_GRAPH_IO_H_
 
@@ -15,18 +15,17 @@ namespace ceres_ed {
 
 struct GraphWriteOptions {
   PlyFormat format = PlyFormat::kBinaryLittleEndian;
-  // Takes the deformed positions g_j + t_j into the frame of the file.
+  // The transform of the deformed positions g_j + t_j into the frame of the file.
   Similarity output_from_graph;
-  // Empty (all 0), or for each node whether it is PR.
+  // For each node, whether it is PR; empty means that none is.
   std::vector<bool> is_point_relevant;
-  // Adds uchar red green blue: orange for a PR node, blue for a PI node.
+  // If true, adds uchar red green blue: orange for a PR node, blue for a PI node.
   bool with_colors = false;
 };
 
-// Returns ok when `path` holds the graph: element 'vertex' with float x y z (deformed position),
-// int pr (1 for a PR node) and float rest_x rest_y rest_z (g_j in the frame of the graph); element
-// 'edge' with int vertex1 vertex2 and float alpha, directed. Else an error with the system's
-// reason.
+// Writes the graph to `path`: element 'vertex' has float x y z (deformed position), int pr (1 for a
+// PR node) and float rest_x rest_y rest_z (g_j in the frame of the graph); element 'edge' has int
+// vertex1 vertex2 and float alpha, for each directed edge. The error gives the system's reason.
 Status WriteGraph(const std::string& path,
                   const DeformationGraph& graph,
                   const DeformationState& state,

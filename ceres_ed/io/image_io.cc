@@ -18,7 +18,8 @@ namespace ceres_ed {
 namespace {
 
 StatusOr<cv::Mat> Decode(const std::string& path, int flags) {
-  // Read first: OpenCV says nothing of why a file can't be opened, but on stderr.
+  // The file is read first, since OpenCV gives the reason why a file can't be opened only on
+  // stderr.
   const StatusOr<std::string> bytes = ReadWholeFile(path);
   if (!bytes.ok()) return bytes.status();
   if (bytes->empty()) return Status::Error(path + ": empty, expected a PNG or JPEG");

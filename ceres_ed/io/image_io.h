@@ -1,4 +1,4 @@
-// PNG and JPEG by OpenCV, which stays inside image_io.cc.
+// Reads and writes PNG and JPEG files with OpenCV, which only image_io.cc includes.
 #ifndef CERES_ED_IO_IMAGE_IO_H_
 #define CERES_ED_IO_IMAGE_IO_H_
 
@@ -9,19 +9,21 @@
 
 namespace ceres_ed {
 
-// Reads a picture of one channel with 16 (or 8) bits: metres = stored number / units_per_metre,
-// and 0 stays 0, "no depth". Errors name the file: it can't be opened or decoded, it has colours,
-// its numbers have another type.
+// Reads a depth image of one channel with 16 (or 8) bits: metres = stored number / units_per_metre.
+// 0 stays 0, which means "no depth". The error names the file: it can't be opened or decoded, it
+// has colours, or its numbers have another type.
 StatusOr<DepthImage> ReadDepthImage(const std::string& path, double units_per_metre);
 
-// Reads a picture of 8 bits a channel; a grey one becomes red = green = blue. Errors as above.
+// Reads a colour image with 8 bits in each channel. A grey image gets red = green = blue. Errors
+// are as above.
 StatusOr<ColorImage> ReadColorImage(const std::string& path);
 
-// Reads a mask: nonzero in any channel counts. Errors as above.
+// Reads a mask: a pixel is nonzero if any channel is. Errors are as above.
 StatusOr<MaskImage> ReadMaskImage(const std::string& path);
 
-// Write PNGs under a temporary name and rename them. Depth is rounded to the nearest unit; what is
-// not finite, not positive or too far for 16 bits is written as 0.
+// The following two functions write a PNG under a temporary name and then rename it. Depth is
+// rounded to the nearest unit. A depth that is not finite, not positive or too large for 16 bits is
+// written as 0.
 Status WriteDepthImage(const std::string& path, const DepthImage& depth, double units_per_metre);
 Status WriteColorImage(const std::string& path, const ColorImage& color);
 

@@ -66,7 +66,7 @@ StatusOr<Landmark> ParseLandmark(const std::string& place,
   return landmark;
 }
 
-// Whether the row is a header; an error when it is one with other columns than ours.
+// Returns whether the row is a header. A header with other columns is an error.
 StatusOr<bool> IsHeader(const std::string& place, std::string_view line) {
   const std::vector<std::string_view> fields = TrimmedFields(line);
   const bool has_number = std::any_of(fields.begin(), fields.end(), [](std::string_view field) {

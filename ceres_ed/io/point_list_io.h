@@ -1,4 +1,4 @@
-// Lists of vertices that a user writes by hand: landmarks and fixed vertices.
+// Reads lists of vertices that a user writes by hand: landmarks and fixed vertices.
 #ifndef CERES_ED_IO_POINT_LIST_IO_H_
 #define CERES_ED_IO_POINT_LIST_IO_H_
 
@@ -11,23 +11,24 @@
 
 namespace ceres_ed {
 
-// Where a vertex of the source is to go.
+// A vertex of the source and the position to which it is moved.
 struct Landmark {
-  // Row in the source file.
+  // The row in the source file.
   int index = -1;
-  // In the frame and unit of the target.
+  // The position, in the frame and unit of the target.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-// Returns the rows `source_index,x,y,z` of a CSV file in the order of the file, at least one. The
-// header row is optional; text behind # and blank lines are ignored; LF or CR LF. A row that says
-// the same twice is taken once. Errors name file, line, value and what was expected: no number, not
-// finite, an index outside [0, num_vertices), two positions for one vertex.
+// Reads the rows `source_index,x,y,z` of a CSV file, in the order of the file; at least one. The
+// header row is optional. Text after # and blank lines are ignored; lines end in LF or CR LF. A row
+// that is repeated exactly is used once. Errors name file, line, value and what was expected. It is
+// an error if a value is not a number or not finite, an index is outside [0, num_vertices), or a
+// vertex has two positions.
 StatusOr<std::vector<Landmark>> ReadLandmarks(const std::string& path, int num_vertices);
 
-// Returns the vertex indices of a text file, ascending and each once: whole numbers set apart by
-// blanks, commas or line ends, text behind # ignored. An empty file is an empty list. Errors name
-// file, line, value and what was expected.
+// Reads the vertex indices of a text file, and returns them ascending, each of them once. They are
+// whole numbers separated by blanks, commas or line ends; text after # is ignored. An empty file
+// gives an empty list. Errors name file, line, value and what was expected.
 StatusOr<std::vector<int>> ReadVertexList(const std::string& path, int num_vertices);
 
 }  // namespace ceres_ed

@@ -9,7 +9,8 @@
 namespace ceres_ed {
 namespace {
 
-// from_chars leaves the value alone when it is out of range; the exponent's sign tells which way.
+// from_chars does not set the value if it is out of range. The sign of the exponent tells whether
+// it is too large or too small.
 double OutOfRangeValue(std::string_view text) {
   const std::size_t exponent = text.find_first_of("eE");
   const bool tiny =
@@ -21,7 +22,7 @@ double OutOfRangeValue(std::string_view text) {
 }  // namespace
 
 std::optional<double> ParseDouble(std::string_view text) {
-  // from_chars takes no plus sign, but printf("%+g") writes one.
+  // from_chars does not accept a plus sign, but printf("%+g") writes one.
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   double value = 0.0;
   const char* const end = text.data() + text.size();

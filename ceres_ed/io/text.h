@@ -1,4 +1,4 @@
-// Small helpers for readers of text.
+// Helpers for reading text.
 #ifndef CERES_ED_IO_TEXT_H_
 #define CERES_ED_IO_TEXT_H_
 
@@ -12,7 +12,8 @@
 
 namespace ceres_ed {
 
-// `text` in quotes for an error sentence: cut to 40 characters, unprintable ones as '?'.
+// Returns `text` in quotes for an error message. It is cut to 40 characters, and unprintable ones
+// are replaced by '?'.
 inline std::string Quoted(std::string_view text) {
   constexpr std::size_t kMaxLength = 40;
   std::string quoted = "'";
@@ -20,19 +21,21 @@ inline std::string Quoted(std::string_view text) {
   return quoted + (text.size() > kMaxLength ? "...'" : "'");
 }
 
-// The number that `text` is as a whole (`nan` and `inf` too), or nothing. Independent of the
-// locale. A magnitude beyond the range of double becomes infinite or 0, with its sign.
+// Returns the number if all of `text` is one (`nan` and `inf` included), otherwise nothing. The
+// result does not depend on the locale. A magnitude beyond the range of double becomes infinite or
+// 0, with its sign.
 std::optional<double> ParseDouble(std::string_view text);
 
-// "PATH: cannot read: ..." and "PATH: cannot write: ..." with the system's reason for `error`, a
-// value of errno.
+// The following two functions return "PATH: cannot read: ..." and "PATH: cannot write: ..." with
+// the system's reason for `error`, a value of errno.
 Status ReadError(const std::string& path, int error);
 Status WriteError(const std::string& path, int error);
 
-// The whole file, or an error with the system's reason. A directory, device or pipe is an error.
+// Returns the contents of a file. The error gives the system's reason. A directory, device or pipe
+// is an error.
 StatusOr<std::string> ReadWholeFile(const std::string& path);
 
-// Opens `path` and tells its size in bytes; errors as of ReadWholeFile.
+// Opens `path` and returns its size in bytes. Errors are as those of ReadWholeFile().
 StatusOr<std::size_t> OpenRegularFile(const std::string& path, std::ifstream* file);
 
 }  // namespace ceres_ed

@@ -13,7 +13,7 @@
 namespace ceres_ed {
 namespace {
 
-// Spreadsheets put one ahead of a CSV.
+// Spreadsheet programs write one at the start of a CSV file.
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 }  // namespace
@@ -75,7 +75,7 @@ void AppendNumbers(std::initializer_list<double> numbers, std::string* row) {
   constexpr std::size_t kLongestDouble = 64;
   for (const double number : numbers) {
     if (!row->empty() && row->back() != '\n' && row->back() != ' ') *row += ' ';
-    // The shortest form of 100000 is 1e+05, which is no frame number and hard on the eyes.
+    // The shortest form of 100000 is 1e+05, which is not a valid frame number and hard to read.
     const double magnitude = std::abs(number);
     const bool plain = magnitude == 0.0 || (magnitude >= 1e-6 && magnitude < 1e16);
     char text[kLongestDouble];

@@ -1,4 +1,5 @@
-// Warp files: the deformation that a fit found, kept to be applied to other clouds.
+// Reads and writes warp files: the deformation that a fit found, saved so that it can be applied to
+// other clouds.
 #ifndef CERES_ED_IO_WARP_IO_H_
 #define CERES_ED_IO_WARP_IO_H_
 
@@ -9,22 +10,21 @@
 
 namespace ceres_ed {
 
-// Returns ok when `path` holds `warp` as JSON, numbers with as many digits as bring back the same
-// bits:
+// Writes `warp` to `path` as JSON. Numbers have enough digits to be read back with the same bits:
 //   {"format": "ceres_ed_warp", "version": 1, "units_note": "...",
 //    "target_from_source": {"scale": s, "rotation": [w, x, y, z], "translation": [x, y, z]},
 //    "binding": {"neighbors": m, "distance": "surface" | "euclidean"},
 //    "nodes": [{"g": [3], "A": [9, column by column], "t": [3]}, ...],
 //    "edges": [[from, to, alpha], ...],
 //    "finish": {"points": [[x, y, z, dx, dy, dz], ...]}}
-// with "finish" only where the warp has one: points of the source and their displacements.
-// Errors: a number in `warp` that is not finite, or the system's reason. The camera and the number
-// of threads are not written.
+// "finish" is written only if the warp has one: points of the source and their displacements. The
+// camera and the number of threads are not written. Returns an error if a number in `warp` is not
+// finite, or with the system's reason.
 Status WriteWarp(const std::string& path, const Warp& warp);
 
-// Returns the warp in `path`, or an error that names file, field and what was expected: not JSON,
-// another format, a newer version, a field that is missing, of the wrong type or length, or out of
-// range. Fields that it does not know are ignored.
+// Reads the warp in `path`. The error names file, field and what was expected: the file is not
+// JSON, has another format or a newer version, or a field is missing, has the wrong type or length,
+// or is out of range. Unknown fields are ignored.
 StatusOr<Warp> ReadWarp(const std::string& path);
 
 }  // namespace ceres_ed

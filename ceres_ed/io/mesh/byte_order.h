@@ -10,6 +10,7 @@
 
 namespace ceres_ed {
 
+// Returns whether this machine stores the lowest byte of a number first.
 inline bool HostIsLittleEndian() {
   const std::uint16_t one = 1;
   unsigned char first_byte = 0;
@@ -17,8 +18,8 @@ inline bool HostIsLittleEndian() {
   return first_byte == 1;
 }
 
-// Returns the number whose bytes begin at `bytes`, in the order of this machine, or in the reverse
-// order where kReversed says so. `bytes` need not be aligned.
+// Returns the number whose bytes begin at `bytes`. They are in the order of this machine, or in the
+// reverse order if kReversed is true. `bytes` need not be aligned.
 template <typename T, bool kReversed>
 T NumberFromBytes(const char* bytes) {
   std::array<char, sizeof(T)> own;

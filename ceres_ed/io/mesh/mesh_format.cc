@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// The first is the format of all other endings.
+// The first one is used for all other endings.
 constexpr MeshFormat kFormats[] = {
     {".ply", ReadPly, WritePly},
     {".pcd", ReadPcd, WritePcd},

@@ -1,4 +1,4 @@
-// The formats of meshes and points, chosen by the ending of a file's name.
+// The formats of meshes and points, which are chosen by the ending of a file's name.
 #ifndef CERES_ED_IO_MESH_MESH_FORMAT_H_
 #define CERES_ED_IO_MESH_MESH_FORMAT_H_
 
@@ -9,24 +9,26 @@
 
 namespace ceres_ed {
 
-// A row of the table in mesh_format.cc: a new format is a file with the two functions, and a row.
+// A row of the table in mesh_format.cc. To add a format, write a file with the two functions and
+// add a row.
 struct MeshFormat {
-  // Ending of a file's name, in small letters.
+  // The ending of a file's name, in lower case.
   const char* ending;
   StatusOr<PlyDocument> (*read)(const std::string& path);
-  // Keeps all that the document has, or returns an error that names what the format cannot hold.
+  // Writes everything that the document has, or returns an error that names what the format can't
+  // represent.
   Status (*write)(const std::string& path, const PlyDocument& document);
 };
 
-// Returns the format of `path`: by its ending, in letters of either case; PLY where no format has
-// that ending.
+// Returns the format for the ending of `path`, in lower or upper case; PLY if no format has that
+// ending.
 const MeshFormat& MeshFormatOf(const std::string& path);
 
-// Returns the file as a document, read as its ending says; errors as of the format's reader.
+// Reads a file in the format of its ending. Errors are as those of the format's reader.
 StatusOr<PlyDocument> ReadMesh(const std::string& path);
 
-// Returns ok when `path` holds `document` in the format that its ending names; else an error, and
-// the old file is as it was.
+// Writes `document` to `path` in the format of its ending. After an error the old file is
+// unchanged.
 Status WriteMesh(const std::string& path, const PlyDocument& document);
 
 }  // namespace ceres_ed

@@ -14,19 +14,20 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The folder of the program or the shared library that has this code; empty where unknown.
+// Returns the folder of the program or shared library that contains this code; empty if unknown.
 fs::path OwnFolder() {
   Dl_info info;
   if (dladdr(reinterpret_cast<const void*>(&LoadMeshModule), &info) == 0) return {};
   std::error_code error;
-  // A program has no more than the name that it was called by.
+  // For a program, only the name by which it was called is known.
   fs::path file = fs::path(info.dli_fname);
   if (!file.has_parent_path()) file = "/proc/self/exe";
   const fs::path own = fs::canonical(file, error);
   return error ? fs::path() : own.parent_path();
 }
 
-// Files to load, in order. The last has no folder: the system looks where it has its libraries.
+// Returns the files to try, in order. The last one has no folder, so that the system searches its
+// own folders of libraries.
 std::vector<fs::path> Candidates(const std::string& file) {
   std::vector<fs::path> candidates;
   // Nothing here sets the environment. NOLINTNEXTLINE(concurrency-mt-unsafe)
@@ -47,7 +48,7 @@ StatusOr<void*> Open(const std::string& file) {
     if (candidate.has_parent_path() && !fs::exists(candidate, error)) continue;
     void* const library = dlopen(candidate.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (library != nullptr) return library;
-    // A module that is there and cannot be loaded is the error to tell.
+    // If a module exists and can't be loaded, this is the error to report.
     if (candidate.has_parent_path()) break;
   }
   // The text is that of the calling thread. NOLINTNEXTLINE(concurrency-mt-unsafe)

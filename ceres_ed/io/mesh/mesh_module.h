@@ -1,4 +1,5 @@
-// Formats that a large library reads, in a shared object that is loaded when such a file is named.
+// Loads shared objects for formats that need a large library, when a file of such a format is
+// named.
 #ifndef CERES_ED_IO_MESH_MESH_MODULE_H_
 #define CERES_ED_IO_MESH_MESH_MODULE_H_
 
@@ -9,13 +10,14 @@
 
 namespace ceres_ed {
 
-// What a module exports: the function kMeshModuleSymbol, without parameters, returns one.
+// The functions of a module. It exports the function kMeshModuleSymbol, which has no parameters and
+// returns one of these.
 struct MeshModule {
-  // The version of ceres_ed that it was built with.
+  // The version of ceres_ed with which it was built.
   const char* version;
   // Fills `document` from the file `path`.
   Status (*read)(const std::string& path, PlyDocument* document);
-  // Sets `bytes` to what a file with `document` holds. `path` names the file in messages.
+  // Writes to `bytes` the contents of a file with `document`. `path` names the file in messages.
   Status (*encode)(const std::string& path, const PlyDocument& document, std::string* bytes);
 };
 
@@ -23,9 +25,9 @@ using MeshModuleFunction = const MeshModule*();
 inline constexpr char kMeshModuleSymbol[] = "ceres_ed_mesh_module";
 
 // Returns the module in the shared object `file` (a name without folders), which stays loaded. It
-// is looked for in the folder CERES_ED_MODULES of the environment, where that is set, beside the
-// program or library that calls, in the folder of libraries that belongs to it, and where the
-// system has its libraries. Errors say what the system or the module said.
+// is searched in the folder of the environment variable CERES_ED_MODULES if that is set, next to
+// the program or library that calls, in the folder of libraries that belongs to it, and in the
+// system's folders of libraries. The error gives the message of the system or of the module.
 StatusOr<const MeshModule*> LoadMeshModule(const std::string& file);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// PCD, the format of the Point Cloud Library: read and written by the module for PCL.
+// PCD, the format of the Point Cloud Library. It is read and written by the module for PCL.
 #ifndef CERES_ED_IO_MESH_PCD_FILE_H_
 #define CERES_ED_IO_MESH_PCD_FILE_H_
 
@@ -9,14 +9,14 @@
 
 namespace ceres_ed {
 
-// Returns the points of the PCD file `path` as element 'vertex': each field a property (`rgb` and
-// `rgba` as red green blue and alpha), a field of several numbers a list. obj_info lines keep the
-// size of a cloud in rows and columns, and the viewpoint. Errors name the file: it cannot be read,
-// it is truncated, or the module is not there, and how to get it.
+// Reads the points of the PCD file `path` as element 'vertex'. Each field becomes a property (`rgb`
+// and `rgba` become red green blue and alpha), and a field of several numbers becomes a list.
+// obj_info lines keep the viewpoint and the size of a cloud in rows and columns. Errors name the
+// file: it can't be read, it is truncated, or the module is missing (and how to get it).
 StatusOr<PlyDocument> ReadPcd(const std::string& path);
 
-// Returns ok when `path` holds the vertices of `document` as a binary PCD; an error where the
-// document has faces or other elements, which a PCD cannot hold, and as of ReadPcd.
+// Writes the vertices of `document` to `path` as a binary PCD. It is an error if the document has
+// faces or other elements, which a PCD can't represent. Other errors are as those of ReadPcd().
 Status WritePcd(const std::string& path, const PlyDocument& document);
 
 }  // namespace ceres_ed

@@ -17,7 +17,7 @@ bool Fits(double value) {
          value <= static_cast<double>(std::numeric_limits<T>::max()) && value == std::floor(value);
 }
 
-// Whether an integer type holds `value` exactly.
+// Returns whether an integer type can represent `value` exactly.
 bool FitsIntegerType(PlyType type, double value) {
   switch (type) {
     case PlyType::kInt8:
@@ -41,14 +41,14 @@ bool FitsIntegerType(PlyType type, double value) {
 
 bool IsBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; }
 
-// Hands out the lines of a text and the words of a line.
+// Reads the lines of a text and the words of a line.
 class Scanner {
  public:
-  // `line_ends` as PlyHeader has them; `line_number` lines stand in front of the text.
+  // `line_ends` is as in PlyHeader; `line_number` is the number of lines before the text.
   Scanner(std::string_view text, std::string_view line_ends, int line_number)
       : rest_(text), line_ends_(line_ends), line_number_(line_number) {}
 
-  // Goes to the next line that has words; false at the end of the text.
+  // Moves to the next line that has words. Returns false at the end of the text.
   bool NextLine() {
     while (!rest_.empty()) {
       const std::size_t length = std::min(FindLineEnd(), rest_.size());
@@ -61,7 +61,7 @@ class Scanner {
     return false;
   }
 
-  // The next word of the line; empty at its end.
+  // Returns the next word of the line; empty at its end.
   std::string_view NextWord() {
     std::size_t length = 0;
     while (length < line_.size() && !IsBlank(line_[length])) ++length;
@@ -76,7 +76,7 @@ class Scanner {
   std::string_view rest_of_line() const { return line_; }
 
  private:
-  // The search for a single character is several times as fast.
+  // A search for a single character is several times faster.
   std::size_t FindLineEnd() const {
     return line_ends_.size() == 1 ? rest_.find(line_ends_[0]) : rest_.find_first_of(line_ends_);
   }
@@ -98,7 +98,8 @@ class AsciiBodyReader {
 
   Status Read(PlyElement* element) {
     for (PlyProperty& property : element->properties) {
-      // Each value takes two bytes at least: a promise beyond that must not cost memory.
+      // Each value takes at least two bytes. Memory for more rows than the file can have is not
+      // reserved.
       const std::size_t rows = std::min(element->count, scanner_.bytes_left() / 2 + 1);
       (property.is_list ? property.list_sizes.reserve(rows) : property.values.reserve(rows));
     }
@@ -156,7 +157,7 @@ class AsciiBodyReader {
                     std::string_view word,
                     PlyType type) const {
     if (word.empty()) {
-      // The last line of a file that was cut is the likely cause.
+      // The likely cause is a file that was cut off.
       const std::string truncated = scanner_.bytes_left() == 0 ? " (truncated?)" : "";
       return Error(
           element, row, "the line ends ahead of property '" + property.name + "'" + truncated);

@@ -11,12 +11,13 @@
 
 namespace ceres_ed {
 
-// Returns the value of `word` as `type` keeps it, or nothing where it is no number or does not fit.
+// Returns the value of `word` in the precision of `type`, or nothing if it is not a number or does
+// not fit.
 std::optional<double> ParsePlyNumber(std::string_view word, PlyType type);
 
-// Returns ok and fills the values of `header->document` from `body`: the text of the file `path`
-// behind that header. One row a line, blank lines ignored; errors name the line. A number that its
-// type cannot hold, such as `300` for a uchar, is an error.
+// Reads the values of `header->document` from `body`, which is the text of the file `path` after
+// that header. Each line has one row; blank lines are ignored. Errors name the line. It is an error
+// if a number does not fit its type, for example `300` for a uchar.
 Status ReadPlyAsciiBody(const std::string& path, std::string_view body, PlyHeader* header);
 
 }  // namespace ceres_ed

@@ -43,7 +43,7 @@ Decode DecoderOf(PlyType type) {
   return DecodeNumbers<double, kReversed>;
 }
 
-// A property, and how its bytes become values.
+// A property, and the functions that convert its bytes to values.
 struct Column {
   Column(PlyProperty* property, bool reversed)
       : property(property),
@@ -56,13 +56,13 @@ struct Column {
     return reversed ? DecoderOf<true>(type) : DecoderOf<false>(type);
   }
 
-  // The fewest bytes of a row: a list may be empty.
+  // The smallest number of bytes of a row. A list may be empty.
   std::size_t MinSize() const { return property->is_list ? length_size : value_size; }
 
   PlyProperty* property;
   std::size_t value_size;
   Decode decode;
-  // The length in front of a list.
+  // The size of the number before a list that gives its length.
   std::size_t length_size;
   Decode decode_length;
 };
@@ -90,9 +90,9 @@ class BinaryBodyReader {
     return size;
   }
 
-  // Rows of one size: each property is a column of a table.
+  // Reads rows that all have the same size: each property is a column of a table.
   Status ReadTable(const PlyElement& element, const std::vector<Column>& columns) {
-    // So many rows stay in the cache while one column after the other is taken from them.
+    // This number of rows stays in the cache while one column after the other is read from them.
     constexpr std::size_t kBlock = 1024;
     const std::size_t row_size = MinRowSize(columns);
     const std::size_t rows_there = rest_.size() / row_size;
@@ -110,7 +110,7 @@ class BinaryBodyReader {
     return Status::Ok();
   }
 
-  // Rows with lists, whose sizes differ.
+  // Reads rows with lists, whose sizes differ.
   Status ReadRows(const PlyElement& element, const std::vector<Column>& columns) {
     Reserve(element, columns);
     for (std::size_t row = 0; row < element.count; ++row) {
@@ -131,7 +131,8 @@ class BinaryBodyReader {
     return Status::Ok();
   }
 
-  // Appends the next `count` values to the property; false where the file ends ahead of the last.
+  // Appends the next `count` values to the property. Returns false if the file ends before the last
+  // one.
   bool AppendValues(const Column& column, std::size_t count) {
     if (rest_.size() / column.value_size < count) return false;
     std::vector<double>& values = column.property->values;
@@ -142,7 +143,8 @@ class BinaryBodyReader {
     return true;
   }
 
-  // Reserves what the header promises, but no more than the rest of the file can hold.
+  // Reserves memory for the number of values in the header, but not for more than the rest of the
+  // file can contain.
   void Reserve(const PlyElement& element, const std::vector<Column>& columns) {
     constexpr std::size_t kTypicalLength = 3;
     const std::size_t rows = std::min(element.count, rest_.size() / MinRowSize(columns));

@@ -10,10 +10,10 @@
 
 namespace ceres_ed {
 
-// Returns ok and fills the values of `document`, whose header is there already, from `body`: the
-// bytes of the file `path` behind its header, of either byte order. Errors name the row in which
-// the file ends, or the row of a negative list length. Memory is taken only for values that `body`
-// has, whatever the header and the lengths of lists promise.
+// Reads the values of `document`, whose header is read already, from `body`: the bytes of the file
+// `path` after its header, in either byte order. Errors name the row in which the file ends, or the
+// row of a negative list length. Memory is reserved only for values that `body` contains, whatever
+// the header and the lengths of lists say.
 Status ReadPlyBinaryBody(const std::string& path, std::string_view body, PlyDocument* document);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// A PLY file in memory, with everything that it says and nothing that it does not.
+// A PLY file in memory: all of its contents and nothing else.
 #ifndef CERES_ED_IO_MESH_PLY_DOCUMENT_H_
 #define CERES_ED_IO_MESH_PLY_DOCUMENT_H_
 
@@ -18,23 +18,24 @@ enum class PlyType { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat32, 
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::kFloat32;
-  // One value a row, or, where `is_list`, the rows' lists one after the other. A double holds every
-  // PLY type exactly.
+  // One value for each row or, if `is_list`, the lists of all rows one after the other. A double
+  // can represent every PLY type exactly.
   std::vector<double> values;
   bool is_list = false;
-  // Lists only: the type of the count that stands before each list, never a floating type.
+  // For lists: the type of the number before each list that gives its length. It is an integer
+  // type.
   PlyType list_count_type = PlyType::kUint8;
-  // Lists only: the length of each row's list; they sum to values.size().
+  // For lists: the length of each row's list. The sum is values.size().
   std::vector<std::uint32_t> list_sizes;
 };
 
 struct PlyElement {
   std::string name;
-  // Rows: every property has that many values (scalars) or list_sizes (lists).
+  // The number of rows. Every property has as many values (scalars) or list_sizes (lists).
   std::size_t count = 0;
   std::vector<PlyProperty> properties;
 
-  // The property of that name, or null.
+  // Returns the property of that name, or null.
   const PlyProperty* Find(const std::string& property) const {
     for (const PlyProperty& candidate : properties) {
       if (candidate.name == property) return &candidate;
@@ -46,15 +47,15 @@ struct PlyElement {
   }
 };
 
-// Elements and properties in the order of the file. Comments and obj_info lines keep their text
-// behind the keyword and one blank; they are written ahead of the elements.
+// Elements and properties are in the order of the file. Comments and obj_info lines are stored
+// without the keyword and one blank after it; they are written before the elements.
 struct PlyDocument {
   PlyFormat format = PlyFormat::kBinaryLittleEndian;
   std::vector<std::string> comments;
   std::vector<std::string> obj_info;
   std::vector<PlyElement> elements;
 
-  // The element of that name, or null.
+  // Returns the element of that name, or null.
   const PlyElement* Find(const std::string& element) const {
     for (const PlyElement& candidate : elements) {
       if (candidate.name == element) return &candidate;
@@ -66,7 +67,7 @@ struct PlyDocument {
   }
 };
 
-// Bytes of one value in a binary file.
+// Returns the number of bytes of one value in a binary file.
 inline std::size_t PlyTypeSize(PlyType type) {
   switch (type) {
     case PlyType::kInt8:
@@ -89,7 +90,7 @@ inline bool IsFloatingPlyType(PlyType type) {
   return type == PlyType::kFloat32 || type == PlyType::kFloat64;
 }
 
-// A column of one value a row.
+// Returns a column with one value for each row.
 inline PlyProperty MakePlyScalar(std::string name, PlyType type, std::vector<double> values = {}) {
   PlyProperty property;
   property.name = std::move(name);
@@ -98,7 +99,7 @@ inline PlyProperty MakePlyScalar(std::string name, PlyType type, std::vector<dou
   return property;
 }
 
-// A column of lists, such as faces.
+// Returns a column of lists, for example faces.
 inline PlyProperty MakePlyList(std::string name, PlyType list_count_type, PlyType type) {
   PlyProperty property;
   property.name = std::move(name);

@@ -17,7 +17,7 @@ struct TypeName {
   const char* name;
   PlyType type;
 };
-// The first name of each type is the one that is written.
+// The first name of each type is used for writing.
 constexpr TypeName kTypeNames[] = {
     {"char", PlyType::kInt8},
     {"uchar", PlyType::kUint8},
@@ -67,23 +67,24 @@ std::optional<PlyType> TypeOf(std::string_view name) {
   return std::nullopt;
 }
 
-// What stands behind the keyword and one blank, trailing blanks and all.
+// Returns the text after the keyword and one blank, including trailing blanks.
 std::string TextBehind(std::string_view line, std::string_view keyword) {
   const std::size_t begin =
       static_cast<std::size_t>(keyword.data() - line.data()) + keyword.size() + 1;
   return begin < line.size() ? std::string(line.substr(begin)) : std::string();
 }
 
-// Control characters in names would be blanks to some readers and letters to others.
+// Control characters are not allowed in names, since some readers take them for blanks and others
+// for letters.
 bool IsPrintable(std::string_view name) {
   return std::none_of(
       name.begin(), name.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '\x7f'; });
 }
 
-// Some editors put it in front of a text.
+// Some editors write it at the start of a text.
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-// What ends the lines of `text`: the end of the first line tells.
+// Returns what ends the lines of `text`, according to the end of the first line.
 std::string_view LineEnds(std::string_view text) {
   const std::size_t end = text.find_first_of(PlyHeader::kCarriageReturnOrLineFeed);
   const bool carriage_return_alone =
@@ -91,7 +92,7 @@ std::string_view LineEnds(std::string_view text) {
   return carriage_return_alone ? PlyHeader::kCarriageReturnOrLineFeed : PlyHeader::kLineFeed;
 }
 
-// Reads one header line after the other into a document.
+// Reads the lines of a header into a document, one after the other.
 class HeaderParser {
  public:
   explicit HeaderParser(std::string path) : path_(std::move(path)) {}
@@ -217,7 +218,7 @@ class HeaderParser {
   Status CheckComplete() const {
     if (!has_format_) return Status::Error(path_ + ": the header has no format line");
     for (const PlyElement& element : header_.document.elements) {
-      // Such rows take no bytes, so that no file could refute a count of 4e9.
+      // Such rows take no bytes, so no file could show that a count of 4e9 is wrong.
       if (element.properties.empty() && element.count > 0) {
         return Status::Error(path_ + ": element '" + element.name + "' has " +
                              std::to_string(element.count) + " rows but no properties");

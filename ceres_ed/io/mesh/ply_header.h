@@ -1,4 +1,4 @@
-// The header of a PLY file, read and written.
+// Reads and writes the header of a PLY file.
 #ifndef CERES_ED_IO_MESH_PLY_HEADER_H_
 #define CERES_ED_IO_MESH_PLY_HEADER_H_
 
@@ -12,27 +12,28 @@
 namespace ceres_ed {
 
 struct PlyHeader {
-  // Elements and properties with counts and types, their values still empty.
+  // Elements and properties with counts and types. Their values are still empty.
   PlyDocument document;
-  // Bytes up to and with the end of the line `end_header`.
+  // The number of bytes up to the end of the line `end_header`, this line included.
   std::size_t size = 0;
-  // Lines up to and with `end_header`.
+  // The number of lines up to `end_header`, this line included.
   int num_lines = 0;
-  // Where a line of the file ends: at an LF, which a CR may precede, or in a file whose first line
-  // ends in CR alone at either of them.
+  // The characters at which a line of the file ends. It ends at an LF, which may follow a CR. If
+  // the first line of the file ends in CR alone, lines end at either of them.
   std::string_view line_ends = kLineFeed;
 
   static constexpr std::string_view kLineFeed = "\n";
   static constexpr std::string_view kCarriageReturnOrLineFeed = "\r\n";
 };
 
-// Returns the header at the start of `text` (the first bytes of the file `path`), or an error that
-// names the line and what was expected. Checks all but the counts, which only the body can tell.
-// Lines end in LF, CR LF or CR alone, as the first one does; a byte order mark of UTF-8 may stand
-// in front, and blanks may stand behind a line.
+// Returns the header at the start of `text` (the first bytes of the file `path`). The error names
+// the line and what was expected. Everything is checked except the counts, which only the body can
+// confirm. Lines end in LF, CR LF or CR alone, as the first one does. There may be a UTF-8 byte
+// order mark at the start, and blanks at the end of a line.
 StatusOr<PlyHeader> ParsePlyHeader(const std::string& path, std::string_view text);
 
-// Returns the header of `document` as text, with LF line ends, up to and with `end_header`.
+// Returns the header of `document` as text, with LF line ends, up to `end_header`, this line
+// included.
 std::string FormatPlyHeader(const PlyDocument& document);
 
 }  // namespace ceres_ed

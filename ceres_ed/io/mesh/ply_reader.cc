@@ -12,10 +12,12 @@
 namespace ceres_ed {
 namespace {
 
-// No header comes near it; keeps a large file of another kind from being read to its end.
+// Every header is much smaller than this. The limit keeps a large file of another kind from being
+// read to its end.
 constexpr std::size_t kMaxHeaderSize = 1 << 20;
 
-// The next `size` bytes of the file; fewer where it ends, which the readers of bodies notice.
+// Returns the next `size` bytes of the file. There are fewer if it ends, which the readers of
+// bodies notice.
 std::string ReadBytes(std::size_t size, std::ifstream* file) {
   std::string bytes(size, '\0');
   file->read(bytes.data(), static_cast<std::streamsize>(size));

@@ -19,7 +19,7 @@
 namespace ceres_ed {
 namespace {
 
-// Bytes collected before they go to the stream.
+// The number of bytes that are collected before they are written to the stream.
 constexpr std::size_t kChunkSize = 1 << 16;
 
 template <typename T>
@@ -63,7 +63,7 @@ class BodyWriter {
         stream_(stream) {}
 
   void Write(const PlyElement& element) {
-    // Where the next list of each property begins.
+    // The start of the next list of each property.
     std::vector<std::size_t> list_begins(element.properties.size(), 0);
     for (std::size_t row = 0; row < element.count; ++row) {
       for (std::size_t i = 0; i < element.properties.size(); ++i) {

@@ -1,4 +1,4 @@
-// PLY files, written.
+// Writes PLY files.
 #ifndef CERES_ED_IO_MESH_PLY_WRITER_H_
 #define CERES_ED_IO_MESH_PLY_WRITER_H_
 
@@ -9,10 +9,10 @@
 
 namespace ceres_ed {
 
-// Returns ok when `path` holds `document` in the format that it names, elements and properties in
-// order; else an error with the system's reason, and the old file is as it was. Ascii numbers are
-// the shortest that read back to the same float or double. Every value must fit its property's
-// type, and every property must have as many rows as its element: a CHECK.
+// Writes `document` to `path` in its format, with elements and properties in their order. The error
+// gives the system's reason, and the old file is then unchanged. Ascii numbers are the shortest
+// from which the same float or double is read back. Fails a CHECK if a value does not fit the type
+// of its property, or if a property has another number of rows than its element.
 Status WritePly(const std::string& path, const PlyDocument& document);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// Where positions and normals stand among the properties of a PLY element.
+// Finds the columns of positions, normals and colours in a PLY element.
 #ifndef CERES_ED_IO_MESH_VERTEX_COLUMNS_H_
 #define CERES_ED_IO_MESH_VERTEX_COLUMNS_H_
 
@@ -13,10 +13,10 @@
 
 namespace ceres_ed {
 
-// Indices into PlyElement::properties of three columns that make a vector.
+// The indices into PlyElement::properties of three columns that form a vector.
 using VertexColumns = std::array<std::size_t, 3>;
 
-// The scalar columns of these names, or nothing where one is missing or a list.
+// Returns the scalar columns of these names, or nothing if one is missing or is a list.
 inline std::optional<VertexColumns> FindColumns(const PlyElement& element,
                                                 const std::array<const char*, 3>& names) {
   VertexColumns columns{};
@@ -28,23 +28,23 @@ inline std::optional<VertexColumns> FindColumns(const PlyElement& element,
   return columns;
 }
 
-// x y z, or nothing.
+// Returns the columns x y z, or nothing.
 inline std::optional<VertexColumns> FindPositionColumns(const PlyElement& element) {
   return FindColumns(element, {"x", "y", "z"});
 }
 
-// nx ny nz, else normal_x normal_y normal_z, else nothing.
+// Returns the columns nx ny nz, otherwise normal_x normal_y normal_z, otherwise nothing.
 inline std::optional<VertexColumns> FindNormalColumns(const PlyElement& element) {
   const std::optional<VertexColumns> columns = FindColumns(element, {"nx", "ny", "nz"});
   return columns.has_value() ? columns : FindColumns(element, {"normal_x", "normal_y", "normal_z"});
 }
 
-// red green blue, or nothing.
+// Returns the columns red green blue, or nothing.
 inline std::optional<VertexColumns> FindColorColumns(const PlyElement& element) {
   return FindColumns(element, {"red", "green", "blue"});
 }
 
-// The vector in `row`.
+// Returns the vector in `row`.
 inline Eigen::Vector3d RowOf(const PlyElement& element,
                              const VertexColumns& columns,
                              std::size_t row) {
@@ -53,7 +53,7 @@ inline Eigen::Vector3d RowOf(const PlyElement& element,
           element.properties[columns[2]].values[row]};
 }
 
-// Appends three columns of `type`, one row a vector, under these names.
+// Appends three columns of `type` with these names. Each vector is one row.
 template <typename Vectors>
 void AppendVectorColumns(const Vectors& vectors,
                          const std::array<const char*, 3>& names,

@@ -12,7 +12,7 @@
 namespace ceres_ed {
 namespace {
 
-// Blue over white to red for t in [0, 1].
+// Returns a colour from blue over white to red for t in [0, 1].
 std::array<std::uint8_t, 3> HeatColor(double t) {
   const auto channel = [](double value) {
     return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(value, 0.0, 1.0)));

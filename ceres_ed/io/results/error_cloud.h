@@ -10,8 +10,8 @@
 
 namespace ceres_ed {
 
-// Writes `cloud` with the property `error` = errors[i] (unit of the input) and colours from blue
-// (0) over white to red (`full_scale` and above).
+// Writes `cloud` with the property `error` = errors[i] (in the unit of the input), and with colours
+// from blue (0) over white to red (`full_scale` and above).
 Status WriteErrorCloud(const std::string& path,
                        const PointCloud& cloud,
                        const std::vector<double>& errors,

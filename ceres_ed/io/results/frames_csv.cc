@@ -15,7 +15,7 @@
 namespace ceres_ed {
 namespace {
 
-// The value of a cell; NaN where it is empty.
+// Returns the value of a cell; NaN if it is empty.
 StatusOr<double> ParseCell(const CsvRow& row, const std::string& name, const std::string& cell) {
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::optional<double> value = ParseDouble(cell);
@@ -41,7 +41,7 @@ std::string FramesRow(const FrameRecord& record) {
   std::string row = std::to_string(record.number) + "," + record.status;
   for (std::size_t i = 0; i < kFrameColumns.size(); ++i) {
     const bool is_time = kFrameColumns[i][0] == 't' && kFrameColumns[i][1] == '_';
-    // Clocks know no more than microseconds.
+    // Clocks are not more accurate than microseconds.
     const double value = is_time ? std::round(record.values[i] * 1e6) / 1e6 : record.values[i];
     std::string text;
     if (!std::isnan(value)) AppendNumbers({value}, &text);
@@ -87,7 +87,7 @@ StatusOr<FrameLog> ReadFrameLog(const std::string& path) {
       log.columns[c].second.push_back(*value);
     }
   }
-  // The higher one first: erasing it leaves the other where it is.
+  // The higher one is erased first, so that the index of the other one stays the same.
   log.columns.erase(log.columns.begin() + std::max(frame_column, status_column));
   log.columns.erase(log.columns.begin() + std::min(frame_column, status_column));
   return log;

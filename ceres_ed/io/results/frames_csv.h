@@ -1,4 +1,4 @@
-// frames.csv: one row for each frame that a tracker has taken in.
+// frames.csv: one row for each frame that a tracker has processed.
 #ifndef CERES_ED_IO_RESULTS_FRAMES_CSV_H_
 #define CERES_ED_IO_RESULTS_FRAMES_CSV_H_
 
@@ -11,10 +11,10 @@
 
 namespace ceres_ed {
 
-// The columns behind frame and status; scripts rely on the names and, up to energy, on their order.
-// Seconds, metres, counts. t_total is the whole frame but t_load (reading and decoding, as far as
-// it wasn't done during the frame before) and t_write. NaN, an empty cell, stands for a value that
-// is not known of this frame.
+// The columns after frame and status. Scripts rely on their names and, up to energy, on their
+// order. Units are seconds, metres and counts. t_total is the time of the whole frame without
+// t_load (reading and decoding, except for the part that was done during the previous frame) and
+// t_write. NaN, which is an empty cell, means that a value is not known for this frame.
 inline constexpr std::array<const char*, 30> kFrameColumns = {
     "t_total",         "t_load",
     "t_associate",     "t_camera",
@@ -35,36 +35,36 @@ inline constexpr std::array<const char*, 30> kFrameColumns = {
 // One row.
 struct FrameRecord {
   int number = 0;
-  // What became of the frame: "tracked", "lost" and so on.
+  // The outcome of the frame: "tracked", "lost" and so on.
   std::string status = "skipped";
   // In the order of kFrameColumns.
   std::array<double, kFrameColumns.size()> values = {};
 
-  // The value of a column that is there.
+  // Returns the value of a column, which must exist.
   double& operator[](const std::string& column);
   double operator[](const std::string& column) const {
     return const_cast<FrameRecord&>(*this)[column];
   }
 };
 
-// Return the first line of frames.csv and a row of it, with their line ends.
+// The following two functions return the first line of frames.csv and a row of it, with line ends.
 std::string FramesHeader();
 std::string FramesRow(const FrameRecord& record);
 
-// A whole frames.csv, by columns.
+// The contents of a frames.csv, by columns.
 struct FrameLog {
   std::vector<int> frames;
   std::vector<std::string> statuses;
-  // All other columns in the order of the file: name and one value a frame, NaN where the file has
-  // none.
+  // All other columns in the order of the file: the name, and one value for each frame. A value is
+  // NaN if the file has none.
   std::vector<std::pair<std::string, std::vector<double>>> columns;
 
-  // The column of that name, or null.
+  // Returns the column of that name, or null.
   const std::vector<double>* Find(const std::string& name) const;
 };
 
-// Returns the log of a run: a header with at least `frame` and `status`, then a row a frame; other
-// columns may be any. Errors name file, line, value and what was expected.
+// Reads the log of a run: a header with at least `frame` and `status`, then a row for each frame.
+// Other columns are optional. Errors name file, line, value and what was expected.
 StatusOr<FrameLog> ReadFrameLog(const std::string& path);
 
 }  // namespace ceres_ed

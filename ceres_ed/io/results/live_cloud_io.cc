@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kRowSize = 32;
 constexpr char kExtension[] = ".ply";
 
-// Little endian on any machine; compilers make one store of it.
+// Writes little endian on every machine. Compilers turn this into a single store.
 template <typename T>
 void Put(T value, char** out) {
   static_assert(sizeof(T) == sizeof(std::uint32_t), "every property has four bytes");
@@ -40,7 +40,7 @@ bool IsNumber(const std::string& text) {
          text.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// The column `name` of whole numbers >= 0 at the rows of the points.
+// Returns the column `name` of whole numbers >= 0 at the rows of the points.
 StatusOr<std::vector<int>> WholeColumn(const std::string& path,
                                        const LoadedCloud& loaded,
                                        const char* name) {

@@ -14,25 +14,25 @@
 
 namespace ceres_ed {
 
-// The points of a map at one time, metres; the vectors are of one length.
+// The points of a map at one time, in metres. The vectors have the same length.
 struct MapSnapshot {
   std::vector<Eigen::Vector3d> points;
-  // Unit length.
+  // Normals of unit length.
   std::vector<Eigen::Vector3d> normals;
-  // Red, green, blue.
+  // Red, green and blue.
   std::vector<std::array<std::uint8_t, 3>> colors;
-  // Never reused.
+  // The numbers of the points. They are never used again for other points.
   std::vector<int> ids;
-  // The frame that saw the point first.
+  // The frame in which each point was first seen.
   std::vector<int> birth_frames;
-  // Observations in the running average of the point.
+  // The number of observations in the running average of each point.
   std::vector<double> weights;
 
   std::size_t size() const { return points.size(); }
 };
 
-// Writes the map, in the map frame, with the properties id, birth_frame and weight. Error: the
-// system's reason.
+// Writes the map, in the map frame, with the properties id, birth_frame and weight. The error gives
+// the system's reason.
 Status WriteMapCloud(const std::string& path, const MapSnapshot& map);
 
 }  // namespace ceres_ed

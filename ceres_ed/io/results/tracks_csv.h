@@ -1,4 +1,4 @@
-// tracks.csv: where the points that a user has named are in each frame.
+// tracks.csv: the positions, in each frame, of the points that a user has chosen.
 #ifndef CERES_ED_IO_RESULTS_TRACKS_CSV_H_
 #define CERES_ED_IO_RESULTS_TRACKS_CSV_H_
 
@@ -8,8 +8,8 @@
 
 namespace ceres_ed {
 
-// Return the first line of tracks.csv and a row of it, with their line ends. `in_camera` is in the
-// camera frame of the frame, metres.
+// The following two functions return the first line of tracks.csv and a row of it, with line ends.
+// `in_camera` is in the camera frame of the frame, in metres.
 std::string TracksHeader();
 std::string TracksRow(int frame, int id, const Eigen::Vector3d& in_camera, bool visible);
 

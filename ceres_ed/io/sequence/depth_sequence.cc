@@ -93,7 +93,7 @@ Status DepthSequence::LoadDepth(const SequenceEntry& entry,
   return Status::Ok();
 }
 
-// Depth is what counts: a frame is not given up for a damaged colour picture.
+// Depth is essential, colour is not: a frame is used even if its colour image is damaged.
 Status DepthSequence::LoadColor(const SequenceEntry& entry,
                                 DepthFrame* frame,
                                 FrameProblem* problem) const {

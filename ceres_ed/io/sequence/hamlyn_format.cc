@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMillimetresPerMetre = 1000.0;
 
-// The numbers of one row. A fourth column is that of the other eye, of no interest here.
+// Returns the numbers of one row. A fourth column belongs to the other camera and is not used.
 StatusOr<Eigen::RowVector3d> ParseMatrixRow(const TextRow& row) {
   if (row.fields.size() != 3 && row.fields.size() != 4) {
     return Status::Error(row.place + std::to_string(row.fields.size()) +
@@ -31,7 +31,7 @@ StatusOr<Eigen::RowVector3d> ParseMatrixRow(const TextRow& row) {
   return numbers;
 }
 
-// Whether the matrix is that of a pinhole without skew, up to rounding of its numbers.
+// Returns whether the matrix is that of a pinhole camera without skew, up to rounding.
 bool HasPinholeZeros(const Eigen::Matrix3d& matrix) {
   Eigen::Matrix3d rest = matrix;
   rest(0, 0) = rest(1, 1) = rest(0, 2) = rest(1, 2) = 0.0;
@@ -62,7 +62,7 @@ StatusOr<PinholeCamera> ReadIntrinsics(const std::string& path) {
   camera.fy = matrix(1, 1);
   camera.cx = matrix(0, 2);
   camera.cy = matrix(1, 2);
-  // The size is told by the pictures.
+  // The size is taken from the images later.
   camera.width = camera.height = 1;
   std::string error;
   if (!camera.IsValid(&error)) return Status::Error(path + ": " + error);
@@ -74,7 +74,7 @@ StatusOr<PinholeCamera> ReadIntrinsics(const std::string& path) {
   return camera;
 }
 
-// The first of the names that is a folder, or the last name.
+// Returns the first of the names that is a folder, or the last name.
 std::string ChooseFolder(const std::string& directory, const char* name, const char* other_name) {
   const std::string path = JoinPath(directory, name);
   return IsFolder(path) ? path : JoinPath(directory, other_name);

@@ -24,7 +24,7 @@ std::string PictureName(int frame) {
   return name;
 }
 
-// 000123.png, 7.jpg
+// Returns whether the name is that of a numbered image, such as 000123.png or 7.jpg.
 bool IsNumberedPicture(const fs::path& path) {
   const std::string extension = path.extension().string();
   if (extension != ".png" && extension != ".jpg" && extension != ".jpeg") return false;
@@ -32,7 +32,7 @@ bool IsNumberedPicture(const fs::path& path) {
   return !stem.empty() && stem.find_first_not_of("0123456789") == std::string::npos;
 }
 
-// Every file in `directory` that belongs to a sequence.
+// Returns all files in `directory` that belong to a sequence.
 std::vector<fs::path> SequenceFiles(const fs::path& directory) {
   std::vector<fs::path> files;
   std::error_code ignored;
@@ -124,7 +124,7 @@ Status NativeSequenceWriter::WriteFrame(const NativeFrame& frame) {
     Status status = write_picture("mask", MaskPicture(*frame.mask));
     if (!status.ok()) return status;
   }
-  // Depth last: a frame without it is none.
+  // Depth is written last, since a frame without depth does not count as a frame.
   check_size(*frame.depth);
   Status status = WriteDepthImage(
       (root / "depth" / name).string(), *frame.depth, options_.camera.depth_units_per_metre);

@@ -1,5 +1,5 @@
-// Depth sequences with truth in the native layout: color/ depth/ mask/ camera.txt poses.txt
-// gt_mesh_000000.ply gt_vertices.f32.
+// Writes depth sequences with ground truth in the native layout: color/ depth/ mask/ camera.txt
+// poses.txt gt_mesh_000000.ply gt_vertices.f32.
 #ifndef CERES_ED_IO_SEQUENCE_NATIVE_WRITER_H_
 #define CERES_ED_IO_SEQUENCE_NATIVE_WRITER_H_
 
@@ -19,44 +19,44 @@
 namespace ceres_ed {
 
 struct NativeSequenceOptions {
-  // Intrinsics, and the unit of the depth that is stored.
+  // The intrinsics, and the unit of the stored depth.
   CameraFile camera;
-  // Faces of the true surface; empty where its vertices are not known.
+  // The triangles of the true surface; empty if its vertices are not known.
   std::vector<std::array<int, 3>> truth_triangles;
-  // Whether a sequence that is in the folder already may be deleted: its text files, truth and
-  // numbered pictures, and nothing else.
+  // Whether an existing sequence in the folder may be deleted. Only its text files, ground truth
+  // and numbered images are deleted.
   bool overwrite = false;
 };
 
-// A frame to write. The pictures have the camera's size.
+// A frame to write. The images have the camera's size.
 struct NativeFrame {
-  // Metres; 0 where there is none. Must be there.
+  // The depth in metres; 0 where there is none. Required.
   const DepthImage* depth = nullptr;
-  // Not written where null or empty.
+  // Not written if null or empty.
   const ColorImage* color = nullptr;
   const MaskImage* mask = nullptr;
   CameraPose world_from_camera;
-  // The true surface's vertices, world frame, metres; null where they are not known. The same
-  // number in every frame, and in all of them or in none.
+  // The vertices of the true surface in the world frame, in metres; null if they are not known. All
+  // frames have the same number of them, or none has any.
   const std::vector<Eigen::Vector3d>* truth = nullptr;
 };
 
-// Writes frames 000000, 000001 ... as they come. camera.txt and the pictures stand as soon as they
-// are written, each of them whole; poses and truth when Finish() returns, and not at all if it is
-// never called. Memory does not grow with the frames but for a pose each.
+// Writes frames 000000, 000001 and so on. camera.txt and each image are complete files as soon as
+// they are written. Poses and ground truth are complete when Finish() returns; without Finish()
+// they are not written. The memory that is needed grows by one pose for each frame only.
 class NativeSequenceWriter {
  public:
-  // Returns the writer with its folders made (parents too). Errors: `directory` is a file, holds a
-  // sequence and `overwrite` is false, or can't be written; intrinsics that WriteCameraFile
-  // refuses.
+  // Creates the folder (with its parents) and returns the writer. Returns an error if `directory`
+  // is a file, contains a sequence and `overwrite` is false, or can't be written, and for
+  // intrinsics that WriteCameraFile() refuses.
   static StatusOr<std::unique_ptr<NativeSequenceWriter>> Create(
       const std::string& directory, const NativeSequenceOptions& options);
 
-  // Returns ok when the frame's pictures are on disk; else an error with the system's reason.
+  // Writes the images of the next frame. The error gives the system's reason.
   Status WriteFrame(const NativeFrame& frame);
 
-  // Writes poses.txt, gt_mesh_000000.ply and gt_vertices.f32 for the frames that there are. To be
-  // called once at most.
+  // Writes poses.txt, gt_mesh_000000.ply and gt_vertices.f32 for all frames so far. Call it at most
+  // once.
   Status Finish();
 
   int num_frames() const { return static_cast<int>(poses_.size()); }
@@ -68,11 +68,11 @@ class NativeSequenceWriter {
   std::string directory_;
   NativeSequenceOptions options_;
   std::vector<FramePose> poses_;
-  // Null until there is a first frame with truth.
+  // Null before the first frame with ground truth.
   std::unique_ptr<SceneTruthWriter> truth_;
 };
 
-// Returns true if `directory` holds a part of a sequence in the native layout.
+// Returns whether `directory` contains a part of a sequence in the native layout.
 bool HoldsNativeSequence(const std::string& directory);
 
 }  // namespace ceres_ed

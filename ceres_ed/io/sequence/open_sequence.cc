@@ -23,7 +23,7 @@ const SequenceFormatReader* FindFormat(SequenceFormat format) {
   return nullptr;
 }
 
-// "DIRECTORY: PROBLEM, expected ..." with what each format needs.
+// Returns the error "DIRECTORY: PROBLEM, expected ..." with what each format requires.
 Status UnknownLayout(const std::string& directory, const std::string& problem) {
   std::string message = directory + ": " + problem + ", expected";
   const char* separator = " ";
@@ -43,7 +43,7 @@ StatusOr<const SequenceFormatReader*> GuessFormat(const std::string& directory) 
                                                 : "no layout of a depth sequence that is known");
 }
 
-// Leaves the frames that the options select.
+// Keeps only the frames that the options select.
 Status SelectFrames(const std::string& directory,
                     const SequenceOptions& options,
                     std::vector<SequenceEntry>* entries) {
@@ -63,8 +63,8 @@ Status SelectFrames(const std::string& directory,
                        "frames there are, " + std::to_string(begin) + " to " + std::to_string(end));
 }
 
-// A sentence about a gap in the numbers, or nothing. Numbers may well go by tens: the smallest
-// distance of two counts as none.
+// Returns a sentence about gaps in the numbers, or an empty string. The smallest difference of two
+// numbers does not count as a gap, since frames may be numbered in steps of ten.
 std::string GapWarning(const std::vector<SequenceEntry>& entries) {
   int stride = entries.back().number - entries.front().number;
   for (std::size_t i = 1; i < entries.size(); ++i) {
@@ -85,7 +85,7 @@ std::string GapWarning(const std::vector<SequenceEntry>& entries) {
          (num_gaps == 1 ? "" : " (the first of them)");
 }
 
-// A sentence about the frames that lack something, or nothing.
+// Returns a sentence about the frames that lack something, or an empty string.
 std::string LackWarning(const std::vector<SequenceEntry>& entries,
                         const char* what,
                         const std::function<bool(const SequenceEntry&)>& lacks) {
@@ -125,7 +125,7 @@ void AddWarnings(SequenceListing* listing) {
   }
 }
 
-// Every step-th entry from the first one.
+// Keeps every step-th entry, beginning with the first one.
 void Thin(int step, std::vector<SequenceEntry>* entries) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < entries->size(); i += static_cast<std::size_t>(step)) {

@@ -29,7 +29,8 @@ std::string Lowercase(std::string text) {
   return text;
 }
 
-// The number in the digits that end the name's stem; nothing when there are none or too many.
+// Returns the number in the digits at the end of the name's stem; nothing if there are none or too
+// many.
 std::optional<int> FrameNumber(const fs::path& name) {
   const std::string stem = name.stem().string();
   const std::size_t last_other = stem.find_last_not_of("0123456789");
@@ -39,7 +40,7 @@ std::optional<int> FrameNumber(const fs::path& name) {
   return *number;
 }
 
-// The pictures of a folder by number.
+// Returns the images of a folder by number.
 StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& folder,
                                                           bool lossless_only,
                                                           std::vector<std::string>* warnings) {
@@ -51,7 +52,7 @@ StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& fol
     const std::string extension = Lowercase(name.extension().string());
     const bool is_picture =
         extension == ".png" || (!lossless_only && (extension == ".jpg" || extension == ".jpeg"));
-    // Some systems leave hidden twins of every file behind.
+    // Some systems create a hidden copy of every file.
     const bool is_hidden = name.string()[0] == '.';
     if (is_picture && !is_hidden && IsFile(file->path().string())) names.push_back(name);
   }
@@ -79,7 +80,7 @@ StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& fol
   return pictures;
 }
 
-// The path of a number, or an empty one.
+// Returns the path of a number, or an empty path.
 std::string PathOf(const std::map<int, std::string>& pictures, int number) {
   const auto entry = pictures.find(number);
   return entry == pictures.end() ? std::string() : entry->second;
@@ -107,7 +108,7 @@ bool IsEmptyFolder(const std::string& path) {
 }
 
 StatusOr<std::pair<int, int>> ReadPictureSize(const std::string& path) {
-  // Signature, length and name of the first chunk, width, height.
+  // The signature, the length and name of the first chunk, then width and height.
   constexpr std::string_view kPngStart("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
   std::array<char, 24> header{};
   std::ifstream file(path, std::ios::binary);

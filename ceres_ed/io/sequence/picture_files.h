@@ -1,4 +1,4 @@
-// Names and sizes of picture files.
+// Names and sizes of image files.
 #ifndef CERES_ED_IO_SEQUENCE_PICTURE_FILES_H_
 #define CERES_ED_IO_SEQUENCE_PICTURE_FILES_H_
 
@@ -15,30 +15,31 @@ namespace ceres_ed {
 // Returns `directory`/`name`.
 std::string JoinPath(const std::string& directory, const std::string& name);
 
-// Returns whether `path` is a folder (or a file), links followed.
+// Return whether `path` is a folder (or a file). Links are followed.
 bool IsFolder(const std::string& path);
 bool IsFile(const std::string& path);
 
-// Returns whether there is nothing in a folder.
+// Returns whether a folder is empty.
 bool IsEmptyFolder(const std::string& path);
 
-// Returns width and height of a depth picture in pixels, from its header where it is a PNG, or an
-// error as of ReadDepthImage.
+// Returns the width and height of a depth image in pixels. They are read from the header of a PNG.
+// Errors are as those of ReadDepthImage().
 StatusOr<std::pair<int, int>> ReadPictureSize(const std::string& path);
 
-// Sets the camera's size from the first frame whose picture can be read; an error when there is
+// Sets the camera's size from the first frame whose image can be read. It is an error if there is
 // none.
 Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCamera* camera);
 
-// Folders of numbered pictures; paths, empty where there is none.
+// The paths of folders of numbered images; empty if there is none.
 struct PictureFolders {
   std::string depth;
   std::string color;
   std::string mask;
 };
 
-// Returns the frames of the folders: one for each number of a depth picture, with the time set to
-// the number. Errors: no depth folder, no picture in it, two files of a number.
+// Returns the frames of the folders: one for each number of a depth image. The time of a frame is
+// its number. It is an error if there is no depth folder, if it has no image, or if two files have
+// the same number.
 StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders);
 
 }  // namespace ceres_ed

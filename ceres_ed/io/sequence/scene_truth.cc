@@ -20,7 +20,8 @@ namespace fs = std::filesystem;
 
 static_assert(sizeof(float) == 4, "the file has floats of 32 bits");
 
-// Turns a number of the machine into one of the file, or one of the file into one of the machine.
+// Converts a number between the byte order of this machine and that of the file, in either
+// direction.
 void ExchangeLittleEndian(float* number) {
   unsigned char bytes[4];
   std::memcpy(bytes, number, 4);

@@ -17,48 +17,50 @@
 
 namespace ceres_ed {
 
-// The mesh of frame 0, metres, world frame.
+// The name of the mesh of frame 0, in the world frame, in metres.
 inline constexpr char kTruthMeshName[] = "gt_mesh_000000.ply";
-// 32-bit floats, little endian: x y z of every vertex of frame 0, then of frame 1, and so on.
+// The name of the file of vertices. It has 32-bit floats, little endian: x y z of every vertex of
+// frame 0, then of frame 1, and so on.
 inline constexpr char kTruthVerticesName[] = "gt_vertices.f32";
 
-// One mesh that moves, and the camera that looks at it.
+// A mesh that moves, and the camera that observes it.
 struct SceneTruth {
   std::vector<std::array<int, 3>> triangles;
   int num_vertices = 0;
-  // World frame, metres: x y z of every vertex of frame 0, then of frame 1, and so on.
+  // The vertices in the world frame, in metres: x y z of every vertex of frame 0, then of frame 1,
+  // and so on.
   std::vector<float> vertices;
   // point_in_world = world_from_camera * point_in_camera, by frame.
   std::map<int, CameraPose> world_from_camera;
 
   int num_frames() const;
-  // Whether both the mesh and the camera of `frame` are known.
+  // Returns whether both the mesh and the camera of `frame` are known.
   bool Has(int frame) const;
-  // The mesh in the camera frame of `frame`; CHECKs Has(frame).
+  // Returns the mesh in the camera frame of `frame`. Fails a CHECK unless Has(frame).
   PointCloud InCamera(int frame) const;
 };
 
 // Returns whether `folder` has one of the two files.
 bool HoldsSceneTruth(const std::string& folder);
 
-// Returns the truth in `folder`, with the cameras that are given. Errors name the file: one that
-// can't be read, a mesh without finite vertices or triangles, vertices of another size than frames
-// x vertices x 3, with a frame for every camera.
+// Reads the ground truth in `folder` and adds the given cameras. Errors name the file: it can't be
+// read, the mesh has vertices that are not finite or no triangles, or the number of values is not
+// frames x vertices x 3 with a frame for every camera.
 StatusOr<SceneTruth> ReadSceneTruth(const std::string& folder,
                                     const std::map<int, CameraPose>& world_from_camera);
 
-// Writes the two files frame by frame; they stand when Finish() returns, and not at all if it is
-// never called.
+// Writes the two files frame by frame. They are complete when Finish() returns; without Finish()
+// they are not written.
 class SceneTruthWriter {
  public:
-  // `triangles` are the faces of the surface. Error: the system's reason.
+  // `triangles` are the triangles of the surface. The error gives the system's reason.
   static StatusOr<std::unique_ptr<SceneTruthWriter>> Create(
       const std::string& folder, std::vector<std::array<int, 3>> triangles);
 
-  // Adds the next frame. CHECKs that each frame has the same number of points.
+  // Adds the next frame. Fails a CHECK unless each frame has the same number of points.
   Status Add(const std::vector<Eigen::Vector3d>& points);
 
-  // To be called once at most, behind one frame at least.
+  // Completes the files. Call it at most once, after at least one frame.
   Status Finish();
 
  private:

@@ -1,5 +1,5 @@
-// The layouts of depth sequences. A new one is a value of SequenceFormat, a file with its function
-// whose name ends in _format, and a declaration and a row here.
+// The layouts of depth sequences. To add one, write a file with its functions, and add a value to
+// SequenceFormat and a line to the table of sequence_format.cc.
 #ifndef CERES_ED_IO_SEQUENCE_SEQUENCE_FORMAT_H_
 #define CERES_ED_IO_SEQUENCE_SEQUENCE_FORMAT_H_
 
@@ -18,7 +18,7 @@ struct SequenceFormatReader {
   const char* mark = "";
   // The files that the layout needs, for the message when no layout is recognised.
   const char* needs = "";
-  // Returns every frame of the folder, with ascending numbers, at least one, or an error.
+  // Returns every frame of the folder, with ascending numbers and at least one, or an error.
   StatusOr<SequenceListing> (*list)(const std::string& directory) = nullptr;
 };
 

@@ -1,4 +1,4 @@
-// What the folder of a depth sequence holds, without its pictures.
+// The contents of the folder of a depth sequence, without its images.
 #ifndef CERES_ED_IO_SEQUENCE_SEQUENCE_LISTING_H_
 #define CERES_ED_IO_SEQUENCE_SEQUENCE_LISTING_H_
 
@@ -13,25 +13,26 @@ namespace ceres_ed {
 
 // The files of one frame.
 struct SequenceEntry {
-  // What the user calls it; ascending in a listing.
+  // The number of the frame for the user; ascending in a listing.
   int number = 0;
-  // Seconds; ascending in a listing.
+  // The time in seconds; ascending in a listing.
   double time_s = 0.0;
   std::string depth_path;
-  // Empty where there is none.
+  // Empty if there is none.
   std::string color_path;
   std::string mask_path;
   // Metres.
   std::optional<CameraPose> world_from_camera;
 };
 
-// What a format finds in a folder.
+// The frames of a folder, as found by a format.
 struct SequenceListing {
-  // With the size of the pictures and the format's unit of depth.
+  // The intrinsics, with the size of the images and the format's unit of depth.
   CameraFile camera;
-  // By ascending number.
+  // The frames by ascending number.
   std::vector<SequenceEntry> entries;
-  // Whether poses, colours, masks are expected of every frame: one without deserves a warning.
+  // Whether every frame is expected to have a pose, colour, a mask. A frame without it gives a
+  // warning.
   bool has_poses = false;
   bool has_color = false;
   bool has_masks = false;

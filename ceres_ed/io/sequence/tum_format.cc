@@ -18,16 +18,16 @@ namespace ceres_ed {
 namespace {
 
 constexpr double kUnitsPerMetre = 5000.0;
-// Of the benchmark's own tool.
+// The limit of the benchmark's own tool, in seconds.
 constexpr double kMaxTimeDifference = 0.02;
 
-// A picture and when it was taken, seconds.
+// An image and its time in seconds.
 struct TimedFile {
   double time_s = 0.0;
   std::string path;
 };
 
-// The rows `timestamp filename` of a list by ascending time, each time once.
+// Returns the rows `timestamp filename` of a list by ascending time, with each time once.
 StatusOr<std::vector<TimedFile>> ReadFileList(const std::string& directory, const char* name) {
   const std::string path = JoinPath(directory, name);
   std::vector<TimedFile> files;
@@ -55,8 +55,9 @@ StatusOr<std::vector<TimedFile>> ReadFileList(const std::string& directory, cons
   return files;
 }
 
-// Gives each entry the colour next in time, each colour to one entry at most: the closest pairs
-// are made first, as by the benchmark's own tool. Both by ascending time.
+// Assigns to each entry the colour image nearest in time, and each image to at most one entry. The
+// closest pairs are assigned first, as in the benchmark's own tool. Both lists are ascending in
+// time.
 void AssociateColors(const std::vector<TimedFile>& colors, std::vector<SequenceEntry>* entries) {
   // Time difference, entry, colour.
   std::vector<std::tuple<double, std::size_t, std::size_t>> pairs;
@@ -79,7 +80,7 @@ void AssociateColors(const std::vector<TimedFile>& colors, std::vector<SequenceE
   }
 }
 
-// Gives each entry the pose nearest in time, the earlier one of two that are as near.
+// Assigns to each entry the pose nearest in time; of two equally near ones the earlier one.
 Status AddPoses(const std::string& path, SequenceListing* listing) {
   StatusOr<std::vector<TimedPose>> poses = ReadTrajectory(path);
   if (!poses.ok()) return poses.status();
@@ -103,13 +104,14 @@ Status AddPoses(const std::string& path, SequenceListing* listing) {
   return Status::Ok();
 }
 
-// The folder's own name, also of "." or "a/b/".
+// Returns the name of the folder, also for "." or "a/b/".
 std::string FolderName(const std::string& directory) {
   std::error_code ignored;
   return std::filesystem::canonical(directory, ignored).filename().string();
 }
 
-// Intrinsics that the benchmark's page gives for its sensors; lens distortion is left aside.
+// Returns the intrinsics that the benchmark's web page gives for its sensors. Lens distortion is
+// ignored.
 PinholeCamera DefaultIntrinsics(const std::string& directory, std::vector<std::string>* warnings) {
   struct Sensor {
     const char* name;
@@ -161,7 +163,7 @@ StatusOr<SequenceListing> ListTumSequence(const std::string& directory) {
   SequenceListing listing;
   for (std::size_t i = 0; i < depths->size(); ++i) {
     const TimedFile& depth = (*depths)[i];
-    // A file that is not there leaves its number out: numbers stay those of the list.
+    // A missing file leaves a gap: the other frames keep their numbers in the list.
     if (!IsFile(depth.path)) continue;
     SequenceEntry entry;
     entry.number = static_cast<int>(i);

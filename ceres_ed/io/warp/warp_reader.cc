@@ -14,10 +14,10 @@ namespace {
 
 using nlohmann::json;
 
-// A rotation written with few digits still passes.
+// The tolerance accepts a rotation that was written with few digits.
 constexpr double kUnitNormTolerance = 1e-6;
 
-// Reads fields out of a JSON tree and keeps the first thing that is wrong.
+// Reads fields from a JSON tree and stores the first error.
 class FieldReader {
  public:
   explicit FieldReader(std::string path) : path_(std::move(path)) {}
@@ -29,7 +29,7 @@ class FieldReader {
     if (ok()) status_ = Status::Error(path_ + ": " + place + " " + what);
   }
 
-  // The member, or a null value after a failure.
+  // Returns the member, or a null value after an error.
   const json& Member(const json& object, const std::string& place, const char* name) {
     static const json kNull;
     const std::string full = place.empty() ? name : place + "." + name;
@@ -61,10 +61,10 @@ class FieldReader {
     return 0.0;
   }
 
-  // A whole number in [low, high].
+  // Returns a whole number in [low, high].
   int Integer(const json& value, const std::string& place, int low, int high) {
     if (value.is_number_integer()) {
-      // As a double, so that an unsigned beyond 2^63 does not wrap.
+      // The number is read as a double, so that an unsigned one above 2^63 does not overflow.
       const double number = value.get<double>();
       if (number >= low && number <= high) return static_cast<int>(number);
     }
@@ -180,7 +180,7 @@ void ReadEdges(const json& root, FieldReader* reader, Warp* warp) {
   }
 }
 
-// Files of fits without a finish have none.
+// Files of fits without a finish do not have this field.
 void ReadFinish(const json& root, FieldReader* reader, VertexField* field) {
   const auto found = root.find("finish");
   if (found == root.end()) return;

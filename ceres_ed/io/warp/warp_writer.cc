@@ -27,7 +27,7 @@ bool AllFinite(const double* values, std::size_t size) {
   return std::all_of(values, values + size, [](double value) { return std::isfinite(value); });
 }
 
-// JSON has no word for NaN and infinity.
+// NaN and infinity can't be written in JSON.
 Status CheckFinite(const std::string& path, const Warp& warp) {
   const Similarity& similarity = warp.target_from_source;
   if (!std::isfinite(similarity.scale) || !similarity.rotation.coeffs().allFinite() ||
@@ -53,7 +53,7 @@ Status CheckFinite(const std::string& path, const Warp& warp) {
   return Status::Ok();
 }
 
-// One array of JSON values with each on a line of its own.
+// Writes an array of JSON values, each on a line of its own.
 void WriteLines(const char* name, const std::vector<json>& values, std::ostream* stream) {
   *stream << "  \"" << name << "\": [";
   for (std::size_t i = 0; i < values.size(); ++i) {
