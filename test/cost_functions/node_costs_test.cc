@@ -28,7 +28,7 @@ std::vector<double> MakeNode(const Eigen::Matrix3d& A, const Eigen::Vector3d& t)
   return node;
 }
 
-// x -> B x + b for the node at g: A_j -> B A_j, and g + t -> B (g + t) + b.
+// Moves the node at g by x -> B x + b: A_j -> B A_j, and g + t -> B (g + t) + b.
 void MoveNode(const Eigen::Matrix3d& B,
               const Eigen::Vector3d& b,
               const Eigen::Vector3d& g,
@@ -74,7 +74,8 @@ TEST(RotationCost, HasTheResidualsOfEquation5InOrder) {
   const CostEvaluation evaluation =
       EvaluateResiduals(*cost, {MakeNode(A, Eigen::Vector3d(7, 8, 9))});
   Eigen::VectorXd expected(6);
-  // c1.c2 = -1 + 6, c1.c3 = 4 + 2 - 6, c2.c3 = -4 - 4, then squared lengths 14, 5, 21 less one.
+  // c1.c2 = -1 + 6, c1.c3 = 4 + 2 - 6, c2.c3 = -4 - 4, then the squared lengths 14, 5, 21 minus
+  // one.
   expected << 5, 0, -8, 13, 4, 20;
   EXPECT_EQ(evaluation.residuals, expected);
 }
@@ -160,7 +161,8 @@ TEST(RegularizationCost, EqualsEquation6) {
       EvaluateResiduals(*cost,
                         {MakeNode(A, Eigen::Vector3d(0.5, 0.0, -1.0)),
                          MakeNode(9.0 * A, Eigen::Vector3d(0.0, 1.0, 0.0))});
-  // A (g_k - g_j) = A (1, 0, -2) = (1, -2, 1); + g_j + t_j = (2.5, 0, 3); less (2, 3, 1); twice.
+  // A (g_k - g_j) = A (1, 0, -2) = (1, -2, 1). Adding g_j + t_j gives (2.5, 0, 3). The residual is
+  // twice the difference from (2, 3, 1).
   EXPECT_LT((evaluation.residuals - Eigen::Vector3d(1.0, -6.0, 4.0)).norm(), 1e-14);
 }
 

@@ -44,7 +44,7 @@ TEST(PosePriorCost, ObeysTheLaws) {
   claims.invariances.push_back({"a change of the quaternion's sign", [](ParameterBlocks* blocks) {
                                   for (double& q : (*blocks)[0]) q = -q;
                                 }});
-  // Half a turn away from the prior, where the sign of the quaternion flips.
+  // Half a turn away from the prior, where the sign of the quaternion changes.
   claims.degenerate.push_back(
       Pose(PriorRotation() * Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0), PriorTranslation()));
   EXPECT_THAT(CheckCostLaws(*cost, claims), IsEmpty());

@@ -22,7 +22,7 @@ Eigen::MatrixXd RandomMatrix(int rows, int columns, int seed) {
   return Eigen::MatrixXd::NullaryExpr(rows, columns, [&] { return uniform(random); });
 }
 
-// |J d + r|^2 / 2 + offset with a J of `rank` rows over ten parameters.
+// Returns |J d + r|^2 / 2 + offset with a J of `rank` rows over ten parameters.
 Quadratic LeastSquares(int rank, double offset) {
   const Eigen::MatrixXd J = RandomMatrix(rank, 10, 1);
   const Eigen::VectorXd r = RandomMatrix(rank, 1, 2);
@@ -50,7 +50,7 @@ TEST(QuadraticCost, ObeysTheLaws) {
     const QuadraticCost cost(kSizes, quadratic);
     CostClaims claims;
     claims.rest = Split(quadratic.origin);
-    // Its least value is at the minimum, not where it was linearised.
+    // The smallest value is at its minimum, not where it was linearised.
     claims.squared_norm_at_rest.reset();
     EXPECT_THAT(CheckCostLaws(cost, claims), IsEmpty()) << "rank " << rank;
   }
@@ -77,7 +77,7 @@ TEST(QuadraticCost, SquareRootHasHessianGradientAndConstant) {
     EXPECT_LT((form.root.transpose() * form.root - quadratic.hessian).norm(), 1e-13);
     EXPECT_LT((form.root.transpose() * form.residual - quadratic.gradient).norm(), 1e-12);
     EXPECT_NEAR(form.constant, 0.3, 1e-12);
-    // Directions that cost nothing are left out, not filled with rounding.
+    // The rows of directions that cost nothing are zero and do not contain rounding errors.
     int zero_rows = 0;
     for (int i = 0; i < cost.size(); ++i) zero_rows += form.root.row(i).isZero(0.0) ? 1 : 0;
     EXPECT_EQ(zero_rows, 10 - rank);
@@ -88,7 +88,7 @@ TEST(QuadraticCost, TakesAnotherQuadraticAndAnotherOrigin) {
   QuadraticCost cost(kSizes, LeastSquares(7, 0.3));
   const Quadratic& old = cost.quadratic();
   const Eigen::VectorXd shift = RandomMatrix(10, 1, 20);
-  // The same function, written about another point.
+  // The same function, expanded about another point.
   const Quadratic before = old;
   cost.SquareRoot();
   cost.SetOrigin(

@@ -34,7 +34,7 @@ TEST(RobustLoss, DerivativesEqualNumericDifferences) {
     for (const double s : {0.01, 0.1, kSquaredWidth, 0.5, 2.0}) {
       const double h = 1e-4 * s;
       for (const int derivative : {1, 2}) {
-        // Fourth order: the error is of the order of h^4 / s^4 = 1e-16.
+        // The formula is of fourth order, so its error is about h^4 / s^4 = 1e-16.
         const double numeric = (8.0 * (Rho(*named.loss, s + h, derivative - 1) -
                                        Rho(*named.loss, s - h, derivative - 1)) -
                                 (Rho(*named.loss, s + 2.0 * h, derivative - 1) -

@@ -24,7 +24,7 @@ BoundPoint Bind(const Eigen::Vector3d& point) {
       point, 4, kWeights, [](int i) -> const Eigen::Vector3d& { return NodePositions()[i]; });
 }
 
-// Nodes that all move as x -> B x + b.
+// Nodes that all move by x -> B x + b.
 struct AffineNodes {
   AffineNodes(const Eigen::Matrix3d& B, const Eigen::Vector3d& b) {
     for (int i = 0; i < 4; ++i) {
@@ -89,7 +89,7 @@ TEST(PointToPointCost, IsTheDifferenceToTheTarget) {
 TEST(PointToPlaneCost, IsTheSignedDistanceToThePlane) {
   const Eigen::Vector3d normal = Eigen::Vector3d(2.0, -1.0, 2.0) / 3.0;
   double residual = 0.0;
-  // (0.8 - 0.6 + 0.4) / 3 less (2 - 2 + 6) / 3.
+  // (0.8 - 0.6 + 0.4) / 3 minus (2 - 2 + 6) / 3.
   ASSERT_TRUE(PointToPlaneCost({1.0, 2.0, 3.0}, normal)(kPoint.data(), &residual));
   EXPECT_NEAR(residual, 0.6 / 3.0 - 2.0, 1e-15);
   const Eigen::Vector3d above = Eigen::Vector3d(1.0, 2.0, 3.0) + 0.25 * normal;

@@ -18,7 +18,7 @@ namespace {
 
 using ::testing::IsEmpty;
 
-// Two residuals with every curvature: a pixel of a pinhole camera.
+// Two nonlinear residuals: the pixel of a pinhole camera.
 struct NonlinearCost {
   static constexpr int kNumResiduals = 2;
   template <typename T>
@@ -32,7 +32,7 @@ struct NonlinearCost {
   }
 };
 
-// Can be evaluated on one side of a plane only.
+// A functor that can be evaluated only on one side of a plane.
 struct PartialCost {
   static constexpr int kNumResiduals = 1;
   template <typename T>
@@ -121,7 +121,7 @@ TEST(WarpedPointCost, EqualsPlainAutoDiffAtThreeNodes) { ExpectCarriersAgreeOnAl
 TEST(WarpedPointCost, EqualsPlainAutoDiffAtFourNodes) { ExpectCarriersAgreeOnAllFunctors<4>(); }
 TEST(WarpedPointCost, EqualsPlainAutoDiffAtEightNodes) { ExpectCarriersAgree<8>(NonlinearCost()); }
 
-// Eight nodes and a camera are ten blocks: 1,024 ways to hold some of them constant.
+// Eight nodes and a camera are ten blocks, so there are 1,024 ways to hold some of them constant.
 TEST(WarpedPointCost, ObeysTheLaws) {
   for (const bool has_camera : {false, true}) {
     for (const int num_nodes : {1, 4, 8}) {

@@ -32,7 +32,7 @@ CameraPose ExampleMotion() {
   return motion;
 }
 
-// x -> motion * x after what the nodes do.
+// Applies x -> motion * x after the motion of the nodes.
 void MoveMap(const CameraPose& motion, const DeformationGraph& graph, DeformationState* state) {
   for (int j = 0; j < graph.num_nodes(); ++j) {
     auto A = MutableNodeAffine(state->node(j));
@@ -49,7 +49,7 @@ EnergyInvariance RigidMotionOfAllNodes() {
           }};
 }
 
-// The gauge of Eq. 1: what the nodes gain, the camera gives back.
+// The gauge freedom of Eq. 1: the nodes move rigidly, and the camera undoes it.
 EnergyInvariance TradeOfNodesAndCamera() {
   return {
       "a trade of a motion between nodes and camera",
@@ -83,7 +83,7 @@ TEST(RegularizationEnergy, ObeysTheLaws) {
   EXPECT_THAT(Check("regularization", claims), IsEmpty());
 }
 
-// Nothing is said of A_j.
+// The A_j may be anything.
 EnergyInvariance ChangeOfAllAffineParts() {
   return {"a change of every A_j", [](const DeformationGraph& graph, DeformationState* state) {
             for (int j = 0; j < graph.num_nodes(); ++j) MutableNodeAffine(state->node(j)) *= -3.0;
@@ -184,7 +184,7 @@ TEST(PosePriorEnergy, IsSilentWithoutACamera) {
   EXPECT_TRUE(CollectResiduals(*Create("pose_prior"), problem.Context()).empty());
 }
 
-// Eq. 8-13: the per-vertex form and the matrix form agree, also through the carrier.
+// The per-vertex form and the matrix form (Eq. 8-13) agree, also through WarpedPointCost.
 TEST(PointToPointEnergy, EqualsTheMatrixFormOfThePaper) {
   for (const bool has_camera : {false, true}) {
     TestProblemOptions options;

@@ -1,5 +1,5 @@
-// Energies by a user's hand, one for each way in: they obey the laws of the built-in ones, and
-// every way to solve takes them.
+// Energies as a user would write them, one for each way to define them. They obey the laws of the
+// built-in ones, and all solvers accept them.
 #include "ceres_ed/energy/custom_energy.h"
 
 #include <ceres_ed/energy/builtin_energies.h>
@@ -27,7 +27,7 @@ namespace {
 using ::testing::Each;
 using ::testing::IsEmpty;
 
-// A plane that points are drawn to.
+// Draws points to a plane.
 struct PlaneFunctor {
   static constexpr int kNumResiduals = 1;
   template <typename T>
@@ -39,7 +39,7 @@ struct PlaneFunctor {
   double offset;
 };
 
-// A node's translation is thought to be 0.
+// The expected translation of a node is 0.
 struct AnchorFunctor {
   static constexpr int kNumResiduals = 3;
   template <typename T>
@@ -50,7 +50,7 @@ struct AnchorFunctor {
   double gain;
 };
 
-// The ends of an edge move alike.
+// Both ends of an edge move in the same way.
 struct ShearFunctor {
   static constexpr int kNumResiduals = 3;
   template <typename T>
@@ -60,7 +60,7 @@ struct ShearFunctor {
   }
 };
 
-// A node stays at its distance from the camera's centre -R_c^T T_c: |R_c x + T_c|.
+// A node keeps its distance from the camera's centre -R_c^T T_c, which is |R_c x + T_c|.
 struct LeashFunctor {
   static constexpr int kNumResiduals = 1;
   template <typename T>
@@ -73,7 +73,7 @@ struct LeashFunctor {
   double squared_length;
 };
 
-// Two points stay as far apart as they are at rest.
+// Two points keep the distance that they have at rest.
 struct RodFunctor {
   static constexpr int kNumResiduals = 1;
   template <typename T>
@@ -152,7 +152,7 @@ EnergyRegistry Registry() {
   return registry;
 }
 
-// A strip with a camera and the energies that it is solved with, and one of the user's.
+// A strip with a camera, with the energies that it needs to be solved and one energy of the user.
 class CustomProblem {
  public:
   explicit CustomProblem(const std::string& name, double weight = 1.0, const LossSpec& loss = {})
@@ -170,7 +170,7 @@ class CustomProblem {
   DeformationState Start() const { return DeformationState(problem_.graph.num_nodes()); }
 
  private:
-  // Half of the strip is seen.
+  // Half of the strip is visible.
   static TestProblemOptions Options() {
     TestProblemOptions options;
     options.has_camera = true;

@@ -94,7 +94,7 @@ TEST(LossType, HasANameThatIsReadBack) {
 
 TEST(MakeLoss, IsNullForTheSquaredLoss) { EXPECT_EQ(MakeLoss(LossSpec()), nullptr); }
 
-// rho(s) at s = 4 a^2, far enough for all six to differ.
+// rho(s) at s = 4 a^2, which is large enough for all six to differ.
 TEST(MakeLoss, HasTheFormOfItsName) {
   constexpr double kWidth = 0.3;
   constexpr double kS = 4.0 * kWidth * kWidth;

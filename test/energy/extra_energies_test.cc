@@ -1,4 +1,4 @@
-// Energies that are there for the asking: laplacian, pinned_vertex, temporal_smoothness, volume.
+// The energies that are not used by default: laplacian, pinned_vertex, temporal_smoothness, volume.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/problem/problem_builder.h>
@@ -81,11 +81,11 @@ TEST(LaplacianEnergy, PutsANodeBetweenItsNeighbours) {
   const BuiltProblem built = builder.Build(config, &state);
   ceres::Solver::Options options;
   options.function_tolerance = options.gradient_tolerance = 1e-14;
-  // Linear: one step without damping is exact.
+  // The problem is linear, so one step without damping is exact.
   options.initial_trust_region_radius = 1e14;
   ceres::Solver::Summary summary;
   ceres::Solve(options, built.problem.get(), &summary);
-  // (t - 0)^2 + (t - (3 * 0 + 2) / 4)^2 + (2 - t)^2 is least at 5 / 6.
+  // The minimum of (t - 0)^2 + (t - (3 * 0 + 2) / 4)^2 + (2 - t)^2 is at 5 / 6.
   EXPECT_NEAR(NodeTranslation(state.node(1)).z(), 5.0 / 6.0, 1e-9);
 }
 
@@ -94,7 +94,7 @@ TEST(PinnedVertexEnergy, ObeysTheLaws) {
                               "pinned_vertex",
                               [] {
                                 EnergyClaims claims;
-                                // Any whole number is a point of some source, not of this one.
+                                // Any integer is a point of some source, but not of this one.
                                 claims.parameters = {{"point", 3.0}};
                                 return claims;
                               }()),
@@ -109,7 +109,7 @@ TEST(PinnedVertexEnergy, HoldsItsPointWhileAnotherIsPulled) {
       {pulled, sheet.points[pulled] + Eigen::Vector3d(0.0, 0.0, 0.2)}};
   const FitResult free = FitLandmarks(sheet, landmarks, {});
   const FitResult pinned = FitLandmarks(sheet, landmarks, {Spec("pinned_vertex", 1e3, 1.0 * last)});
-  // A landmark alone lifts the whole sheet.
+  // Without the pin, a landmark lifts the whole sheet.
   EXPECT_GT((free.points[last] - sheet.points[last]).norm(), 0.05);
   EXPECT_LT((pinned.points[last] - sheet.points[last]).norm(), 1e-3);
   EXPECT_NEAR(pinned.points[pulled].z(), 0.2, 0.01);
@@ -129,7 +129,7 @@ TEST(TemporalSmoothnessEnergy, ObeysTheLaws) {
   EXPECT_THAT(CheckEnergyLaws(BuiltinEnergies(), "temporal_smoothness"), IsEmpty());
 }
 
-// How far nodes move from frame to frame over a sheet that heaves, metres.
+// Returns how far nodes move from frame to frame on a sheet that moves up and down, in metres.
 double MeanStep(double weight) {
   BumpyScene scene;
   scene.heave = 0.004;
@@ -166,7 +166,7 @@ TEST(TemporalSmoothnessEnergy, SlowsNodesDown) {
   const double free = MeanStep(0.0);
   const double slow = MeanStep(10.0);
   const double still = MeanStep(1e6);
-  // The sheet moves by up to 1.6 mm a frame.
+  // The sheet moves by up to 1.6 mm in each frame.
   EXPECT_GT(free, 5e-4);
   EXPECT_LT(slow, 0.8 * free);
   EXPECT_LT(still, 1e-3 * free);
@@ -203,7 +203,8 @@ TEST(TrackerFault, IsToldInItsFrameAlone) {
   }
 }
 
-// A box of 1 x 2 x 3 about `centre`; `welded`: of 8 vertices, else of three a triangle.
+// Returns a box of 1 x 2 x 3 around `centre`. With `welded` it has 8 vertices, otherwise three for
+// each triangle.
 PointCloud MakeBox(const Eigen::Vector3d& centre, bool welded) {
   PointCloud box;
   for (int i = 0; i < 8; ++i) {
@@ -241,7 +242,7 @@ TEST(EnclosedVolume, IsThatOfABox) {
   }
 }
 
-// A box on four nodes of which each carries every vertex.
+// A box on four nodes. Every vertex is bound to all of them.
 struct BoxProblem {
   explicit BoxProblem(PointCloud cloud) : box(std::move(cloud)), builder(MakeGraph(), false) {
     const int nodes[] = {0, 1, 2, 3};
@@ -266,7 +267,7 @@ struct BoxProblem {
     return graph;
   }
 
-  // r at the map x -> M x + t.
+  // Returns the residual when the nodes move by x -> M x + t.
   double ResidualAt(const Eigen::Matrix3d& M, const Eigen::Vector3d& t) const {
     DeformationState state(4);
     for (int j = 0; j < 4; ++j) {
@@ -320,7 +321,7 @@ TEST(VolumeEnergy, AddsNothingToAMeshThatIsNotClosed) {
 
 TEST(VolumeEnergy, LetsASqueezedBodyBulge) {
   const PointCloud body = MakeSyntheticShape(SyntheticShape::kKidney, 800, 1.0);
-  // Its lowest and its highest vertex come nearer by a third.
+  // Its lowest and its highest vertex come nearer to each other by a third.
   const auto by_z = [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return a.z() < b.z();
   };

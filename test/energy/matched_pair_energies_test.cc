@@ -1,4 +1,4 @@
-// Energies that look at both sides of a matched pair: symmetric_point_to_plane and photometric.
+// Energies that use both sides of a matched pair: symmetric_point_to_plane and photometric.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/testing/cost_evaluation.h>
 #include <ceres_ed/testing/energy_laws.h>
@@ -30,7 +30,7 @@ TestProblem OffProblem() {
   return MakeTestProblem(options);
 }
 
-// One number a residual of energy `name`, at `state`.
+// Returns one number for each residual of energy `name` at `state`.
 std::vector<double> Residuals(const std::string& name,
                               const TestProblem& problem,
                               const DeformationState& state) {
@@ -48,7 +48,7 @@ TEST(MatchedPairEnergies, ObeyTheLaws) {
   }
 }
 
-// A rigid motion of the camera frame and of all that was seen in it: no residual changes.
+// A rigid motion of the camera frame and of everything that was observed in it changes no residual.
 TEST(MatchedPairEnergies, DoNotSeeAMotionOfCameraAndTargetsTogether) {
   TestProblem problem = OffProblem();
   DeformationState state = RandomState(problem, 0.3, 7);
@@ -85,8 +85,8 @@ TEST(SymmetricPointToPlaneEnergy, IsTheGapAlongTheMeanOfBothNormals) {
   }
 }
 
-// Two points of a circle, moved apart along their chord: the tangent plane of either sees a
-// distance, the mean of the two normals none (Rusinkiewicz 2019).
+// Two points of a circle are moved apart along their chord. Each of the tangent planes gives a
+// distance, but the mean of the two normals gives none (Rusinkiewicz 2019).
 TEST(SymmetricPointToPlaneEnergy, SeesNoDistanceAlongACircle) {
   TestProblem problem = MakeTestProblem({});
   const auto on_circle = [](double angle) {

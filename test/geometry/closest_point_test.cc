@@ -61,7 +61,8 @@ TEST(ClosestPointOnTriangle, TakesAFlatTriangleForItsLongestEdge) {
 TEST(SurfaceIndex, EqualsBruteForceOverAllTriangles) {
   PointCloud mesh = MakeSphereMesh(3);
   Jitter(0.03, 43, &mesh);
-  // Large triangles beside small ones: their vertices are far from the points of their inside.
+  // Large triangles next to small ones: the vertices of the large ones are far from points inside
+  // them.
   mesh = Append(mesh, MakeGridMesh(2, 2, 8.0), {-4, -4, 1.5});
   const SurfaceIndex index(mesh);
   for (const Eigen::Vector3d& query : RandomPoints(300, 44, 2.0)) {
@@ -86,8 +87,8 @@ TEST(SurfaceIndex, EqualsBruteForceOverAllTriangles) {
   }
 }
 
-// Slivers of all degrees, far from the origin, and queries from on the surface to far away: what
-// bounds could get wrong.
+// Thin triangles of all proportions, far from the origin, with queries from the surface to far
+// away: the cases in which bounds could be wrong.
 TEST(SurfaceIndex, EqualsBruteForceOnSliversNearAndFar) {
   PointCloud mesh;
   const std::vector<Eigen::Vector3d> random = RandomPoints(3 * 80, 45);
@@ -127,7 +128,7 @@ TEST(SurfaceIndex, AHintChangesNothing) {
   bare.points = mesh.points;
   for (const PointCloud* cloud : {&mesh, &bare}) {
     const SurfaceIndex index(*cloud);
-    // The vertices themselves, too: each is as near to all triangles around it.
+    // The vertices are queries, too: each is equally near to all triangles around it.
     std::vector<Eigen::Vector3d> queries = RandomPoints(100, 47, 1.5);
     queries.insert(queries.end(), mesh.points.begin(), mesh.points.begin() + 100);
     for (const Eigen::Vector3d& query : queries) {

@@ -15,10 +15,10 @@ namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 const Eigen::Vector3d kSlope(0.3, -0.2, 0.1);
 
-// Linear in space.
+// Returns a brightness that is linear in space.
 double Brightness(const Eigen::Vector3d& point) { return 0.5 + kSlope.dot(point); }
 
-// Points on a plane that is not upright, with some scatter along it.
+// Returns points on a tilted plane, with some scatter along it.
 PointCloud TiltedSheet(int side, bool with_triangles) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> jitter(-0.3, 0.3);
@@ -45,7 +45,7 @@ PointCloud TiltedSheet(int side, bool with_triangles) {
   return sheet;
 }
 
-// What of a gradient lies in the plane.
+// Returns the component of a gradient that lies in the plane.
 Eigen::Vector3d Along(const Eigen::Vector3d& normal, const Eigen::Vector3d& gradient) {
   return gradient - normal * normal.dot(gradient);
 }

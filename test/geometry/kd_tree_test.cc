@@ -12,7 +12,7 @@
 namespace ceres_ed {
 namespace {
 
-// Every point by distance, then by index.
+// Returns all points, sorted by distance, then by index.
 std::vector<Neighbor> BruteForce(const std::vector<Eigen::Vector3d>& points,
                                  const Eigen::Vector3d& query) {
   std::vector<Neighbor> all;
@@ -33,7 +33,8 @@ void ExpectSame(const std::vector<Neighbor>& found, const std::vector<Neighbor>&
   }
 }
 
-// Integer points, each of them twice: nearly every search has ties.
+// Returns points with integer coordinates, each of them twice, so that nearly every search has
+// ties.
 std::vector<Eigen::Vector3d> TiedPoints() {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 2 * 125; ++i) {
@@ -112,7 +113,7 @@ TEST(KdTree, AHintChangesNothing) {
   }
 }
 
-// Every point once, also where many are at one place.
+// Every point occurs once, even if many are at the same place.
 TEST(KdTree, HasAllPointsInItsOrder) {
   std::vector<Eigen::Vector3d> points = RandomPoints(100, 6);
   points.resize(150, points.front());

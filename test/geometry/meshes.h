@@ -1,4 +1,4 @@
-// Small meshes with known geometry for the tests.
+// Small meshes of known geometry for the tests.
 #ifndef CERES_ED_TEST_GEOMETRY_MESHES_H_
 #define CERES_ED_TEST_GEOMETRY_MESHES_H_
 
@@ -17,8 +17,8 @@
 
 namespace ceres_ed {
 
-// columns x rows vertices in the plane z = 0, `step` apart, index row * columns + column. Diagonals
-// alternate.
+// Returns a mesh of columns x rows vertices in the plane z = 0, `step` apart. The index of a vertex
+// is row * columns + column. The diagonals alternate.
 inline PointCloud MakeGridMesh(int columns, int rows, double step = 1.0) {
   PointCloud mesh;
   for (int r = 0; r < rows; ++r) {
@@ -39,7 +39,8 @@ inline PointCloud MakeGridMesh(int columns, int rows, double step = 1.0) {
   return mesh;
 }
 
-// The unit sphere: an icosahedron halved `levels` times, 10 * 4^levels + 2 vertices.
+// Returns the unit sphere: an icosahedron that is subdivided `levels` times, with 10 * 4^levels + 2
+// vertices.
 inline PointCloud MakeSphereMesh(int levels) {
   const double t = (1.0 + std::sqrt(5.0)) / 2.0;
   PointCloud mesh;
@@ -81,7 +82,7 @@ inline PointCloud MakeSphereMesh(int levels) {
   return mesh;
 }
 
-// `other` after `mesh`, moved by `offset`.
+// Returns `mesh` followed by `other`, which is moved by `offset`.
 inline PointCloud Append(PointCloud mesh, const PointCloud& other, const Eigen::Vector3d& offset) {
   const int first = static_cast<int>(mesh.size());
   for (const Eigen::Vector3d& point : other.points) mesh.points.push_back(point + offset);
@@ -91,8 +92,8 @@ inline PointCloud Append(PointCloud mesh, const PointCloud& other, const Eigen::
   return mesh;
 }
 
-// Every triangle with corners of its own, as in an STL file. `source` gets the vertex of `mesh`
-// that each corner was.
+// Returns a mesh in which every triangle has its own corners, as in an STL file. `source` receives
+// for each corner the vertex of `mesh` from which it comes.
 inline PointCloud Unweld(const PointCloud& mesh, std::vector<int>* source) {
   PointCloud soup;
   for (const std::array<int, 3>& triangle : mesh.triangles) {
@@ -106,7 +107,7 @@ inline PointCloud Unweld(const PointCloud& mesh, std::vector<int>* source) {
   return soup;
 }
 
-// Uniform in the cube of half side `half_side` around 0.
+// Returns points that are uniformly distributed in the cube of half side `half_side` around 0.
 inline std::vector<Eigen::Vector3d> RandomPoints(int count, unsigned seed, double half_side = 1.0) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-half_side, half_side);

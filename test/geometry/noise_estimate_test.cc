@@ -20,11 +20,11 @@ double NoiseOfBare(PointCloud cloud) {
   return NoiseOf(cloud);
 }
 
-// About 0.002 from vertex to vertex.
+// Returns a shape whose vertices are about 0.002 apart.
 PointCloud MakeKidney() { return MakeSyntheticShape(SyntheticShape::kKidney, 5000, 0.1); }
 
 TEST(EstimateNoise, FindsTheDeviationThatWasAdded) {
-  // The median of 500 places scatters by about 2 % (and they share points).
+  // The median over 500 places varies by about 2 % (and the places share points).
   for (const double sigma : {1e-4, 3e-4, 1e-3}) {
     PointCloud cloud = MakeKidney();
     AddSyntheticNoise(sigma, 5, &cloud);

@@ -14,13 +14,14 @@ TEST(ComputeVertexNormals, OnASpherePointOutward) {
   const std::vector<Eigen::Vector3d> normals = ComputeVertexNormals(mesh);
   for (std::size_t p = 0; p < mesh.size(); ++p) {
     EXPECT_NEAR(normals[p].norm(), 1.0, 1e-14);
-    // Edges are about 0.07 long: the error of a vertex normal is of second order in that.
+    // Edges are about 0.07 long, and the error of a vertex normal is of second order in that
+    // length.
     EXPECT_GT(normals[p].dot(mesh.points[p]), 1.0 - 1e-5);
   }
 }
 
 TEST(ComputeVertexNormals, DoNotDependOnHowAFaceIsCut) {
-  // A cube corner, with one of its three faces cut in two at the corner.
+  // The corner of a cube. One of its three faces is divided into two at the corner.
   PointCloud mesh;
   mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}};
   mesh.triangles = {{0, 4, 1}, {0, 2, 4}, {0, 1, 3}, {0, 3, 2}};
@@ -59,7 +60,8 @@ TEST(EstimateNormals, OnTheBarePointsOfASpherePointOutward) {
 }
 
 TEST(EstimateNormals, PointTheSameWayAllOverAConcaveShape) {
-  // A torus: the inner half points toward the axis, which a test per point would get wrong.
+  // A torus: the normals of its inner half point toward the axis, so a test for each point alone
+  // would be wrong.
   std::vector<Eigen::Vector3d> points, truth;
   for (int i = 0; i < 80; ++i) {
     for (int k = 0; k < 30; ++k) {

@@ -16,7 +16,7 @@ using ::testing::IsEmpty;
 PinholeCamera ExampleCamera() { return {500.0, 400.0, 319.5, 239.5, 640, 480}; }
 
 TEST(PinholeCamera, ProjectsByTheFormula) {
-  // u = 500 (0.2 / 2) + 319.5, v = 400 (-0.1 / 2) + 239.5: x goes right, y down.
+  // u = 500 (0.2 / 2) + 319.5 and v = 400 (-0.1 / 2) + 239.5: x points to the right and y down.
   const Eigen::Vector2d pixel = ExampleCamera().Project({0.2, -0.1, 2.0});
   EXPECT_DOUBLE_EQ(pixel.x(), 369.5);
   EXPECT_DOUBLE_EQ(pixel.y(), 219.5);
@@ -63,7 +63,7 @@ TEST(PinholeCamera, SaysWhatIsWrongWithIt) {
     camera.cy = bad;
     expect_refused(camera, "cy is ");
   }
-  // A principal point outside of the picture is a crop, no mistake.
+  // A principal point outside of the image means a cropped image, which is valid.
   PinholeCamera camera = ExampleCamera();
   camera.cx = -20.0;
   EXPECT_TRUE(camera.IsValid(&error));

@@ -12,7 +12,7 @@
 namespace ceres_ed {
 namespace {
 
-// What the samples achieve: no two nearer than `packing`, every point within `cover`.
+// The quality of samples: no two are nearer than `packing`, and every point has one within `cover`.
 struct Radii {
   double packing = std::numeric_limits<double>::infinity();
   double cover = 0.0;
@@ -59,7 +59,7 @@ TEST(UniformDownsample, CoversAndPacks) {
 
 TEST(UniformDownsample, KeepsPointsThatAreASpacingApart) {
   const std::vector<Eigen::Vector3d> points = MakeGridMesh(20, 1, 0.1).points;
-  // Multiples of 0.1 and of 100 round in different ways; a tenth of each must not decide.
+  // Multiples of 0.1 and of 100 are rounded differently; such rounding errors must not decide.
   EXPECT_EQ(UniformDownsample(points, 0.1).size(), 20u);
   EXPECT_EQ(UniformDownsample(MakeGridMesh(20, 1, 100.0).points, 100.0).size(), 20u);
   EXPECT_EQ(UniformDownsample(points, 0.11).size(), 10u);

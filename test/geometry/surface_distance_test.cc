@@ -12,7 +12,7 @@
 namespace ceres_ed {
 namespace {
 
-// All distances over the paths by Floyd and Warshall.
+// Returns all distances along the paths by the algorithm of Floyd and Warshall.
 std::vector<std::vector<double>> AllDistances(const SurfaceTopology& topology) {
   const int n = topology.num_points();
   std::vector<std::vector<double>> d(
@@ -37,7 +37,7 @@ PointCloud BumpyMesh() {
   return mesh;
 }
 
-// The distance of every point from one.
+// Returns the distance of every point from one point.
 std::vector<double> DistancesFrom(int point, const SurfaceTopology& topology) {
   return NearestSeedsAlongSurface(topology, {point}, 1).distances;
 }
@@ -79,7 +79,7 @@ TEST(NearestSeeds, HaveDistancesThatOnAPlaneAreAtMostAFewPercentTooLong) {
     EXPECT_GE(distances[p], exact - 1e-12);
     if (exact > 0.0) worst = std::max(worst, distances[p] / exact - 1.0);
   }
-  // Ways along rows and diagonals only: 1 / cos(22.5 degrees) - 1 = 8.2 % at worst.
+  // Paths along rows and diagonals only are at most 1 / cos(22.5 degrees) - 1 = 8.2 % too long.
   EXPECT_LT(worst, 0.083);
 }
 
@@ -96,8 +96,8 @@ TEST(NearestSeeds, HaveDistancesThatOnASphereAreWithinFivePercentOfGreatCircles)
     worst = std::max(worst, error);
     mean += error / static_cast<double>(mesh.size());
   }
-  // Twelve directions 30 degrees apart on equilateral triangles would make 3.5 %; the projection to
-  // the sphere stretches some of them.
+  // Twelve directions 30 degrees apart on equilateral triangles would give 3.5 %. The projection to
+  // the sphere stretches some triangles.
   EXPECT_LT(worst, 0.05);
   EXPECT_LT(mean, 0.025);
 }
@@ -156,7 +156,7 @@ TEST(NearestSeeds, OfAnUnweldedMeshAreThoseOfTheWeldedOne) {
   const std::vector<int> seeds = {5, 150, 33, 80, 12, 99};
   std::vector<int> soup_seeds;
   for (const int seed : seeds) {
-    // The last copy, so that a seed that is no representative is tried too.
+    // Use the last copy, so that a seed that is not a representative is tried, too.
     const auto last = std::find(source.rbegin(), source.rend(), seed);
     soup_seeds.push_back(static_cast<int>(source.rend() - last) - 1);
   }

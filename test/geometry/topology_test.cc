@@ -16,7 +16,8 @@ TEST(Topology, GridHasItsEdgesAndBorder) {
   const int columns = 5, rows = 4;
   const PointCloud mesh = MakeGridMesh(columns, rows, 0.5);
   const SurfaceTopology topology = BuildTopology(mesh);
-  // Along rows, along columns, and one diagonal a cell; each edge is listed at both ends.
+  // Edges along rows, along columns, and one diagonal in each cell. Each edge is listed at both
+  // ends.
   EXPECT_EQ(topology.edges.size(), 2u * (4 * 4 + 5 * 3 + 4 * 3));
   for (int p = 0; p < topology.num_points(); ++p) {
     const int column = p % columns, row = p / columns;
@@ -42,7 +43,8 @@ TEST(Topology, AClosedMeshHasNoBorder) {
 }
 
 TEST(Topology, PathsGoStraightAcrossTwoUnfoldedTriangles) {
-  // Two right triangles over the edge (0, 1), folded by 90 degrees: flat, the corners are 2 apart.
+  // Two right triangles at the edge (0, 1), folded by 90 degrees. Unfolded, their corners are 2
+  // apart.
   PointCloud mesh;
   mesh.points = {{0, -1, 0}, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}};
@@ -54,7 +56,7 @@ TEST(Topology, PathsGoStraightAcrossTwoUnfoldedTriangles) {
 }
 
 TEST(Topology, PathsDoNotCutCornersOfTheSurface) {
-  // Seen from the plane the straight line between the tips 2 and 3 passes beside the edge (0, 1).
+  // In the plane, the straight line between the tips 2 and 3 does not cross the edge (0, 1).
   PointCloud mesh;
   mesh.points = {{0, 0, 0}, {0, 1, 0}, {1, 3, 0}, {-1, 3, 0}};
   mesh.triangles = {{0, 2, 1}, {0, 1, 3}};

@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kTolerance = 0.03;
 
-// Sees x and y from -1 to 1 at z = 1.
+// Returns a camera that sees x and y from -1 to 1 at z = 1.
 PinholeCamera MakeCamera() { return {50.0, 50.0, 49.5, 49.5, 100, 100}; }
 
-// Square |x|, |y| <= half at depth z.
+// Returns the square |x|, |y| <= half at depth z.
 PointCloud Square(double half, double z) {
   PointCloud square;
   square.points = {{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}};
@@ -48,13 +48,13 @@ TEST(VisibilityBuffer, HidesWhatIsBehindAMeshByMoreThanTheTolerance) {
     EXPECT_TRUE(buffer.Sees({1.03 * x, x, 1.03}, kTolerance)) << x;
     EXPECT_FALSE(buffer.Sees({1.04 * x, x, 1.04}, kTolerance)) << x;
   }
-  // Beside the square nothing hides, beside the picture nothing is seen.
+  // Beside the square nothing is hidden. Outside the image nothing is seen.
   EXPECT_TRUE(buffer.Sees({1.2, 0.0, 2.0}, kTolerance));
   EXPECT_FALSE(buffer.Sees({2.1, 0.0, 2.0}, kTolerance));
 }
 
 TEST(VisibilityBuffer, InterpolatesDepthOnASlope) {
-  // z = 2 + x: exact in 1 / z only.
+  // On the plane z = 2 + x only 1 / z is interpolated exactly.
   PointCloud slope;
   slope.points = {{-1, -3, 1}, {2, -3, 4}, {2, 3, 4}, {-1, 3, 1}};
   slope.triangles = {{0, 2, 1}, {0, 3, 2}};
@@ -82,7 +82,7 @@ TEST(VisibilityBuffer, KeepsThePartInFrontOfTheCamera) {
 }
 
 TEST(VisibilityBuffer, ClosesTheGapsBetweenPoints) {
-  // A wall of points 3 pixels apart, and one of 2 pixels far behind it.
+  // A wall of points that are 3 pixels apart, and one of points 2 pixels apart far behind it.
   std::vector<Eigen::Vector3d> wall, behind;
   for (int i = -8; i <= 8; ++i) {
     for (int j = -8; j <= 8; ++j) {

@@ -86,7 +86,7 @@ TEST(BuildWeldedMesh, TiesBarePointsToTheirNearestOnes) {
   PointCloud cloud;
   cloud.points = RandomPoints(60, 3);
   const WeldedMesh mesh = Build(cloud);
-  // By brute force: six of each, either way.
+  // Brute force: the six nearest points of each point, in either direction.
   std::set<std::pair<int, int>> expected;
   for (int p = 0; p < 60; ++p) {
     std::vector<std::pair<double, int>> others;
@@ -111,13 +111,14 @@ TEST(SquaredLaplacian, IsTheSquareOfTheUniformOne) {
     L(b, b) += 1.0;
     L(a, b) = L(b, a) = -1.0;
   }
-  // An isolated vertex has a row of zeros: any degree but 0 will do.
+  // The row of an isolated vertex is zero, so any degree except 0 will do.
   const Eigen::VectorXd degrees = L.diagonal().cwiseMax(1.0);
   const Eigen::MatrixXd expected = L * degrees.cwiseInverse().asDiagonal() * L;
   const Eigen::SparseMatrix<double> found = SquaredLaplacian(mesh);
   const Eigen::MatrixXd lower = expected.triangularView<Eigen::Lower>();
   EXPECT_LT((Eigen::MatrixXd(found) - lower).norm(), 1e-13);
-  // Solvers add to the diagonal: it is the first entry of every column, an empty one's too.
+  // Solvers add to the diagonal, so it must be the first entry of every column, even of an empty
+  // one.
   for (int v = 0; v < size; ++v) {
     EXPECT_EQ(found.innerIndexPtr()[found.outerIndexPtr()[v]], v);
   }
@@ -128,7 +129,8 @@ TEST(WeldedNormals, AreThoseOfTheSphereAndZeroForBarePoints) {
   const WeldedMesh mesh = Build(sphere);
   const std::vector<Eigen::Vector3d> points = AtVertices(sphere, mesh);
   const std::vector<Eigen::Vector3d> normals = WeldedNormals(mesh, points);
-  // An edge is 0.14; the normal of a symmetric umbrella is exact, of others off by its square.
+  // An edge is 0.14 long. Where the triangles around a vertex are symmetric, its normal is exact;
+  // elsewhere the error is of second order in that length.
   for (std::size_t v = 0; v < points.size(); ++v) {
     EXPECT_LT((normals[v] - points[v]).norm(), 0.02) << v;
   }

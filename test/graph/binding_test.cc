@@ -46,7 +46,7 @@ void ExpectSameToTheBit(const Skinning& a, const Skinning& b) {
 }
 
 TEST(ComputeWeights, FollowsEquation2) {
-  // 1 - d / 5 is 0.8, 0.6, 0.4, 0.2; their sum is 2.
+  // 1 - d / 5 is 0.8, 0.6, 0.4 and 0.2; the sum is 2.
   EXPECT_THAT(Weights({1, 2, 3, 4, 5}, 4),
               ElementsAre(DoubleNear(0.4, 1e-15),
                           DoubleNear(0.3, 1e-15),
@@ -72,14 +72,14 @@ TEST(ComputeWeights, AreEqualWhenAllAreEquallyFar) {
 }
 
 TEST(ComputeWeights, OnANodeGiveItTheLargestWeightOnly) {
-  // 1, 0.5, 0.25, 0.25 before the normalisation.
+  // The weights are 1, 0.5, 0.25, 0.25 before the normalisation.
   EXPECT_THAT(Weights({0, 2, 3, 3, 4}, 4), ElementsAre(0.5, 0.25, 0.125, 0.125));
 }
 
 TEST(ComputeWeights, PlaceAStepBehindTheLastOfTooFewNodes) {
   EXPECT_THAT(Weights({7}, 4), ElementsAre(1.0));
   EXPECT_THAT(Weights({0}, 4), ElementsAre(1.0));
-  // d_max = 2 (1 + 1/2) = 3: 2/3 and 1/3.
+  // d_max = 2 (1 + 1/2) = 3, so the weights are 2/3 and 1/3.
   EXPECT_THAT(Weights({1, 2}, 4),
               ElementsAre(DoubleNear(2.0 / 3, 1e-15), DoubleNear(1.0 / 3, 1e-15)));
   EXPECT_THAT(Weights({1, 2, kInfinity, kInfinity, kInfinity}, 4),
@@ -222,7 +222,7 @@ TEST(BindCloudToGraph, BindsAFinerCloudMuchAsTheSource) {
     for (const Eigen::Vector3d& g : graph.positions()) {
       nearest = std::min(nearest, (g - fine.points[p]).norm());
     }
-    // Ways along edges are up to 5 % and arcs up to 2 % longer than chords.
+    // Paths along edges are up to 5 % and arcs up to 2 % longer than chords.
     const Eigen::Vector3d& first = graph.position((*skinning)[p].nodes[0]);
     EXPECT_LE((first - fine.points[p]).norm(), 1.08 * nearest);
   }

@@ -28,7 +28,8 @@ TEST(SharedInfluenceEdges, WeighByTheProductsOfTheWeights) {
   const double second_weights[] = {0.6, 0.4};
   skinning.Add(first, first_weights, 3);
   skinning.Add(second, second_weights, 2);
-  // 01: 0.15, 02: 0.10, 12: 0.06 + 0.24 = 0.30; the mean is 0.55 / 3.
+  // The sums are 0.15 for nodes 0 and 1, 0.10 for 0 and 2, and 0.06 + 0.24 = 0.30 for 1 and 2. The
+  // mean is 0.55 / 3.
   const std::vector<GraphEdge> edges = SharedInfluenceEdges(skinning, 4, 8);
   ASSERT_EQ(Pairs(edges),
             (std::set<std::pair<int, int>>{{0, 1}, {0, 2}, {1, 0}, {1, 2}, {2, 0}, {2, 1}}));
@@ -41,14 +42,14 @@ TEST(SharedInfluenceEdges, WeighByTheProductsOfTheWeights) {
 }
 
 TEST(SharedInfluenceEdges, StayIfEitherEndKeepsThem) {
-  // Node 0 shares 0.25 points with each of 1, 2, 3, the most with 3.
+  // Node 0 shares 0.25 points with each of 1, 2 and 3, and most with 3.
   Skinning skinning(2);
   for (int other = 1; other <= 3; ++other) {
     const int nodes[] = {0, other};
     const double weights[] = {0.9 - 0.1 * other, 0.1 + 0.1 * other};
     skinning.Add(nodes, weights, 2);
   }
-  // Node 0 keeps 3 alone, but 0 is the best partner of 1 and 2.
+  // Node 0 chooses only 3, but 0 is the strongest partner of 1 and 2.
   EXPECT_EQ(SharedInfluenceEdges(skinning, 4, 1).size(), 6u);
 }
 
@@ -80,7 +81,7 @@ TEST(NearestNodeEdges, JoinNeighborsOfALatticeBothWays) {
   }
   for (const DistanceRule distance : {DistanceRule::kSurface, DistanceRule::kEuclidean}) {
     const auto pairs = Pairs(NearestNodeEdges(mesh, BuildTopology(mesh), nodes, 2, distance));
-    // A corner keeps its two neighbours along the rim.
+    // A corner is linked to its two neighbours along the rim.
     EXPECT_TRUE(pairs.count({0, 1}) == 1 && pairs.count({0, 3}) == 1 && pairs.count({0, 4}) == 0);
     for (const auto& [from, to] : pairs) EXPECT_EQ(pairs.count({to, from}), 1u);
   }
@@ -100,7 +101,7 @@ TEST(NearestNodeEdges, AlongTheSurfaceDoNotJumpBetweenSheets) {
       1u);
 }
 
-// Three rows of three nodes, `gap` apart, each a chain.
+// Returns three rows of three nodes, `gap` apart. Each row is a chain.
 DeformationGraph ThreeRows(double gap) {
   DeformationGraph graph;
   for (int row = 0; row < 3; ++row) {
@@ -122,7 +123,7 @@ TEST(JoinPieces, MakesOnePieceWithSeveralEdgesAJoint) {
   const auto pairs = Pairs(graph.edges());
   EXPECT_EQ(graph.num_edges(), num_edges + 12);
   EXPECT_EQ(pairs.size(), static_cast<std::size_t>(graph.num_edges()));
-  // Neighbouring rows, straight across.
+  // Neighbouring rows are joined by edges straight across.
   for (int i = 0; i < 6; ++i) EXPECT_EQ(pairs.count({i, i + 3}), 1u);
 }
 

@@ -96,7 +96,7 @@ TEST(BuildGraph, BindsEveryPointAndJoinsEveryNode) {
     EXPECT_TRUE(built.warnings.empty());
     for (int j = 0; j < built.graph.num_nodes(); ++j) {
       EXPECT_EQ(built.graph.position(j), mesh.points[built.node_points[j]]);
-      // Both directions of at least three partners.
+      // At least three partners, in both directions.
       EXPECT_GE(built.graph.incident_edges(j).size(), 6u);
     }
   }
@@ -169,7 +169,7 @@ TEST(BuildGraph, SmallIslandsFollowTheNodesNearby) {
 TEST(BuildGraph, AMeshOfCrumbsIsBoundInSpace) {
   std::vector<int> source;
   PointCloud crumbs = Unweld(MakeSphereMesh(2), &source);
-  // No two corners meet any more.
+  // No two corners coincide any more.
   Jitter(1e-6, 72, &crumbs);
   const BuiltGraph built = Build(crumbs, GraphOptions());
   EXPECT_EQ(built.binding.distance, DistanceRule::kEuclidean);

@@ -1,4 +1,4 @@
-// The paper's matrix form of the warp (Eq. 8-13), as an oracle for the per-vertex form.
+// The paper's matrix form of the warp (Eq. 8-13), with which the per-vertex form is compared.
 #ifndef CERES_ED_TEST_GRAPH_MATRIX_FORM_H_
 #define CERES_ED_TEST_GRAPH_MATRIX_FORM_H_
 
@@ -13,8 +13,8 @@
 
 namespace ceres_ed {
 
-// Pi = [M C], one row a vertex: M has w_j (v - g_j)^T in the three columns of node j, C has w_j in
-// column j. It depends on the rest shape alone.
+// Returns Pi = [M C], with one row for each vertex: M has w_j (v - g_j)^T in the three columns of
+// node j, and C has w_j in column j. It depends only on the rest shape.
 inline Eigen::SparseMatrix<double> MatrixPi(const DeformationGraph& graph,
                                             const Skinning& skinning,
                                             const std::vector<Eigen::Vector3d>& points) {
@@ -36,7 +36,8 @@ inline Eigen::SparseMatrix<double> MatrixPi(const DeformationGraph& graph,
   return Pi;
 }
 
-// Phi = [Lambda; T]: Lambda stacks the A_j^T, T the (g_j + t_j)^T.
+// Returns Phi = [Lambda; T]: Lambda has the A_j^T on top of one another, and T has the (g_j +
+// t_j)^T.
 inline Eigen::MatrixXd MatrixPhi(const DeformationGraph& graph, const DeformationState& state) {
   const int n = graph.num_nodes();
   Eigen::MatrixXd Phi(4 * n, 3);
@@ -52,7 +53,7 @@ inline Eigen::MatrixXd MatrixPhi(const DeformationGraph& graph, const Deformatio
   return Phi;
 }
 
-// R_c [Pi Phi]^T + T_c (x) 1, one column a vertex, in the camera frame.
+// Returns R_c [Pi Phi]^T + T_c (x) 1, with one column for each vertex, in the camera frame.
 inline Eigen::MatrixXd WarpByMatrices(const DeformationGraph& graph,
                                       const DeformationState& state,
                                       const Skinning& skinning,

@@ -7,7 +7,7 @@
 namespace ceres_ed {
 namespace {
 
-// 0 -> 1 -> 2 -> 3 -> 4, and 5 alone.
+// Returns the graph 0 -> 1 -> 2 -> 3 -> 4, and node 5 without edges.
 DeformationGraph Chain() {
   DeformationGraph graph;
   for (int i = 0; i < 6; ++i) graph.AddNode({static_cast<double>(i), 0, 0});

@@ -34,7 +34,7 @@ TEST(NodeSet, IsEmptyAfterClear) {
   EXPECT_EQ(nodes.size(), 1);
 }
 
-// 0 - 1 - 2 - 3 - 4 - 5
+// Returns the graph 0 - 1 - 2 - 3 - 4 - 5.
 DeformationGraph Chain() {
   DeformationGraph graph;
   for (int j = 0; j < 6; ++j) graph.AddNode({1.0 * j, 0.0, 0.0});

@@ -12,7 +12,7 @@
 namespace ceres_ed {
 namespace {
 
-// A linear displacement of a grid of spacing 0.25 in z = 0.
+// Returns a linear displacement of a grid of spacing 0.25 in the plane z = 0.
 VertexField MakeField() {
   VertexField field;
   field.points = MakeGridMesh(9, 9, 0.25).points;
@@ -22,7 +22,7 @@ VertexField MakeField() {
   return field;
 }
 
-// One node at rest: the warp is its finish alone.
+// Returns a warp with one node at rest, so that only its finish has an effect.
 Warp MakeWarp() {
   Warp warp;
   warp.graph.AddNode({1, 1, 0});
@@ -94,7 +94,7 @@ TEST(ApplyWarp, AddsTheFinishBeforeTheSimilarity) {
 
 TEST(ApplyWarp, TurnsTheNormalsOfAMeshWithTheFinish) {
   Warp warp = MakeWarp();
-  // z = x: the sheet tilts by 45 degrees.
+  // z = x: the finish tilts the sheet by 45 degrees.
   for (std::size_t p = 0; p < warp.finish.points.size(); ++p) {
     warp.finish.displacements[p] = {0.0, 0.0, warp.finish.points[p].x()};
   }
@@ -114,7 +114,7 @@ TEST(ApplyWarp, TakesADenserMeshAlongWithTheFinish) {
   for (std::size_t p = 0; p < dense.size(); ++p) {
     const Eigen::Vector3d& at = rest.points[p];
     const Eigen::Vector3d expected(0.1, 0.2 * at.x(), -0.1 * at.y());
-    // The mean of points up to 0.28 away, of a field of slope 0.22.
+    // The result is a mean over points up to 0.28 away, and the slope of the field is 0.22.
     EXPECT_LT((dense.points[p] - at - expected).norm(), 0.28 * 0.23);
   }
 }

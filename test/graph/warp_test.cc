@@ -15,7 +15,7 @@
 namespace ceres_ed {
 namespace {
 
-// A grid with a graph on it, in a state at random around rest.
+// A grid with a graph on it, in a random state near rest.
 struct Scene {
   PointCloud cloud = MakeGridMesh(9, 9, 0.25);
   Warp warp;
@@ -107,12 +107,12 @@ TEST(WarpNormal, EqualsTheCrossProductOfWarpedTangents) {
         difference(Eigen::Vector3d::UnitX()).cross(difference(Eigen::Vector3d::UnitY()));
     const Eigen::Vector3d normal =
         WarpNormal(scene.warp.state, scene.skinning[p], Eigen::Vector3d::UnitZ());
-    // The warp is linear for held weights; rounding is 1e-16 / h.
+    // The warp is linear when the weights are constant; the rounding error is 1e-16 / h.
     EXPECT_LT((normal - expected.normalized()).norm(), 1e-11);
   }
 }
 
-// The state of one node with the affine part G, and a binding to it alone.
+// The state of one node with the affine part G, and a binding to this node.
 struct OneNode {
   explicit OneNode(const Eigen::Matrix3d& G) : state(1) { MutableNodeAffine(state.node(0)) = G; }
   Binding binding() const { return {&index, &weight, 1}; }
@@ -126,7 +126,8 @@ TEST(WarpNormal, LivesWithASingularGradient) {
   const Eigen::Vector3d z = Eigen::Vector3d::UnitZ(), x = Eigen::Vector3d::UnitX();
   const OneNode flat(Eigen::Vector3d(1, 1, 0).asDiagonal().toDenseMatrix());
   EXPECT_EQ(WarpNormal(flat.state, flat.binding(), z), z);
-  // x is in the plane that is left: its cofactor image vanishes, the nearest rotation keeps it.
+  // x lies in the plane that remains. The cofactor matrix takes it to zero; the nearest rotation
+  // does not change it.
   EXPECT_LT((WarpNormal(flat.state, flat.binding(), x) - x).norm(), 1e-15);
   const OneNode collapsed(Eigen::Matrix3d::Zero());
   EXPECT_NEAR(WarpNormal(collapsed.state, collapsed.binding(), z).norm(), 1.0, 1e-15);
@@ -138,7 +139,7 @@ TEST(WarpNormal, KeepsAZeroNormalAndTheWindingUnderAReflection) {
   const OneNode mirrored(Eigen::Vector3d(1, 1, -1).asDiagonal().toDenseMatrix());
   const Eigen::Vector3d zero = Eigen::Vector3d::Zero(), z = Eigen::Vector3d::UnitZ();
   EXPECT_EQ(WarpNormal(mirrored.state, mirrored.binding(), zero), zero);
-  // A triangle in the plane keeps its corners, so it keeps its normal.
+  // A triangle in the plane keeps its corners, and therefore its normal.
   EXPECT_EQ(WarpNormal(mirrored.state, mirrored.binding(), z), z);
 }
 

@@ -17,7 +17,7 @@ TEST(AppendFile, HasEachRowAtOnce) {
   StatusOr<AppendFile> file = AppendFile::Create(dir / "rows.csv");
   ASSERT_TRUE(file.ok());
   ASSERT_TRUE(file->Append("a,b\n").ok());
-  // Neither closed nor flushed: what a killed program would leave.
+  // The file is neither closed nor flushed, as if the program had been killed.
   EXPECT_EQ(ReadBytes(dir / "rows.csv"), "a,b\n");
   AppendFile moved = *std::move(file);
   ASSERT_TRUE(moved.Append("1,2\n").ok());

@@ -20,7 +20,8 @@ using ::testing::HasSubstr;
 TEST(AtomicFile, HoldsWhatWasWrittenAfterCommit) {
   const TemporaryDirectory directory;
   const std::string path = directory / "out.bin";
-  // Longer than any buffer, with zero bytes, in pieces of many sizes.
+  // The contents are longer than any buffer, contain zero bytes, and are written in pieces of many
+  // sizes.
   std::string expected;
   StatusOr<std::unique_ptr<AtomicFile>> file = AtomicFile::Create(path);
   ASSERT_TRUE(file.ok()) << file.status().message();
@@ -64,7 +65,7 @@ TEST(AtomicFile, ProcessKilledWhileWritingLeavesTheOldFile) {
   ASSERT_EQ(waitpid(child, &outcome, 0), child);
   ASSERT_TRUE(WIFSIGNALED(outcome));
   EXPECT_EQ(ReadBytes(path), "old");
-  // The name left behind does not keep the next run from writing.
+  // A temporary file that was left does not prevent the next run from writing.
   EXPECT_TRUE(WriteFileAtomically(path, "new").ok());
   EXPECT_EQ(ReadBytes(path), "new");
 }

@@ -118,7 +118,7 @@ TEST_F(CameraFiles, PosesAreReadInTheOrderOfTheFile) {
   EXPECT_EQ((*poses)[0].world_from_camera.rotation.coeffs(), Eigen::Vector4d(0, 0, 0, 1));
   EXPECT_EQ((*poses)[1].frame, 100000);
   EXPECT_EQ((*poses)[1].world_from_camera.translation, Eigen::Vector3d(-1, 0, 0.5));
-  // Half the angle about x has the sine 0.6: y goes to (0, 1 - 2 0.36, 2 0.6 0.8).
+  // The sine of half the angle about x is 0.6, so y is turned to (0, 1 - 2 0.36, 2 0.6 0.8).
   const Eigen::Vector3d turned = (*poses)[1].world_from_camera.rotation * Eigen::Vector3d(0, 1, 0);
   EXPECT_NEAR((turned - Eigen::Vector3d(0, 0.28, 0.96)).norm(), 0.0, 1e-15);
 }

@@ -29,7 +29,7 @@ class CloudIo : public ::testing::Test {
     WriteBytes(path_, bytes);
     return LoadCloud(path_);
   }
-  // The error, behind "in.ply: ".
+  // Returns the error without "in.ply: ".
   std::string ErrorOf(const std::string& bytes) {
     const StatusOr<LoadedCloud> loaded = Load(bytes);
     return loaded.ok() ? "no error" : loaded.status().message().substr(path_.size() + 2);
@@ -209,7 +209,7 @@ TEST_F(CloudIo, SaveReplacesPositionsAndKeepsTheRest) {
     EXPECT_THAT(again->Find("vertex")->Find("y")->values, ElementsAre(2, 2.5, 3, 3.5, 4));
     EXPECT_THAT(again->Find("vertex")->Find("z")->values, ElementsAre(4, 3, 2, 1, 0));
     EXPECT_EQ(again->Find("vertex")->Find("x")->type, PlyType::kFloat32);
-    // With the old positions put back it is the old file.
+    // With the old positions it is the old file again.
     for (const char* axis : {"x", "y", "z"}) {
       again->Find("vertex")->Find(axis)->values =
           loaded->document.Find("vertex")->Find(axis)->values;
@@ -232,7 +232,7 @@ TEST_F(CloudIo, SaveLeavesDroppedRowsAndReplacesNormals) {
   ASSERT_TRUE(SaveCloud(out, loaded->document, loaded->vertex_of_point, points, &normals).ok());
   EXPECT_THAT(ReadBytes(out),
               HasSubstr("end_header\n10 11 12 1 0 0 7\nnan 5 5 1 0 0 8\n20 21 22 0 1 0 9\n"));
-  // Without normals to write the old ones stay.
+  // If no normals are given, the old ones are kept.
   ASSERT_TRUE(SaveCloud(out, loaded->document, loaded->vertex_of_point, points, nullptr).ok());
   EXPECT_THAT(ReadBytes(out), HasSubstr("\n10 11 12 0 0 1 7\n"));
 }

@@ -35,7 +35,7 @@ TEST(FramesCsv, ReadsBackAsWritten) {
   for (std::size_t c = 0; c < kFrameColumns.size(); ++c) {
     EXPECT_EQ(log->columns[c].first, kFrameColumns[c]);
   }
-  // Clocks count microseconds; the rest is exact.
+  // Times are rounded to microseconds; everything else is exact.
   EXPECT_EQ((*log->Find("t_total"))[0], 0.012346);
   EXPECT_EQ((*log->Find("nodes"))[0], 312.0);
   EXPECT_EQ((*log->Find("rms_plane"))[0], 1.0 / 3.0);

@@ -29,7 +29,7 @@ TEST(WriteGraph, HoldsDeformedNodesRestPositionsAndEdges) {
   GraphWriteOptions options;
   options.format = PlyFormat::kAscii;
   options.is_point_relevant = {false, true};
-  // Twice as large, a quarter turn about z (x to y), then 10 along x.
+  // Scaled by two, turned by 90 degrees about z (x to y), then moved by 10 along x.
   options.output_from_graph.scale = 2.0;
   options.output_from_graph.rotation =
       Eigen::Quaterniond(Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitZ()));
@@ -39,7 +39,7 @@ TEST(WriteGraph, HoldsDeformedNodesRestPositionsAndEdges) {
 
   const StatusOr<LoadedCloud> loaded = LoadCloud(path);
   ASSERT_TRUE(loaded.ok()) << loaded.status().message();
-  // Floats: 10 has an ulp of 1e-6.
+  // The file has floats, whose spacing at 10 is 1e-6.
   EXPECT_LT((loaded->cloud.points[0] - Eigen::Vector3d(10, 2, 0)).norm(), 1e-6);
   EXPECT_LT((loaded->cloud.points[1] - Eigen::Vector3d(6, 0, 6)).norm(), 1e-6);
   const PlyElement& nodes = *loaded->document.Find("vertex");

@@ -16,8 +16,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// PNGs made by hand with zlib: grey 3 x 1 of 8 bits (0 7 255), grey 4 x 1 of 16 bits
-// (0 1 258 65535), red-green-blue 1 x 1 of 16 bits.
+// PNGs made by hand with zlib: grey 3 x 1 with 8 bits (0 7 255), grey 4 x 1 with 16 bits (0 1 258
+// 65535), red-green-blue 1 x 1 with 16 bits.
 constexpr char kGrey8[] =
     "89504e470d0a1a0a0000000d49484452000000030000000108000000003e8b4b680000000c4944415478da6360"
     "60ff0f00011101077215cd730000000049454e44ae426082";
@@ -59,7 +59,7 @@ TEST_F(Images, DepthOf8BitsIsUnitsInMetres) {
 }
 
 TEST_F(Images, DepthOfEveryUnitSurvivesTheRoundTrip) {
-  // All 65536 numbers, at units of both sides of what sensors have.
+  // All 65536 numbers, with units below and above those of real sensors.
   for (const double units_per_metre : {1000.0, 5000.0, 100000.0}) {
     DepthImage written(256, 256);
     for (int v = 0; v < 256; ++v) {

@@ -1,4 +1,4 @@
-// Files for the tests of the io layer, made without its code.
+// Files for the tests of the io layer, made without the code of that layer.
 #ifndef CERES_ED_TEST_IO_IO_TEST_UTIL_H_
 #define CERES_ED_TEST_IO_IO_TEST_UTIL_H_
 
@@ -15,7 +15,7 @@
 
 namespace ceres_ed {
 
-// A directory of its own for each test, gone afterwards.
+// A temporary directory for each test, which is deleted afterwards.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {
@@ -42,7 +42,7 @@ class TemporaryDirectory {
 };
 
 inline void WriteBytes(const std::string& path, const std::string& bytes) {
-  // Some file systems flush to disk when a file is overwritten: slow in a loop.
+  // Some file systems flush to disk when a file is overwritten, which is slow in a loop.
   std::filesystem::remove(path);
   std::ofstream file(path, std::ios::binary);
   file << bytes;
@@ -75,7 +75,7 @@ inline const char* FormatWord(Encoding encoding) {
   return "";
 }
 
-// The rows of a PLY body in one of the three encodings. The machine is little-endian.
+// Makes the rows of a PLY body in one of the three encodings. The machine must be little-endian.
 class BodyMaker {
  public:
   explicit BodyMaker(Encoding encoding) : encoding_(encoding) {}
@@ -107,8 +107,9 @@ class BodyMaker {
   std::string body_;
 };
 
-// A file with all that a writer may come up with: properties of each type, a quad, a pentagon, an
-// element that no one knows, comments, obj_info. Five vertices (i, 0.5 i, -i) and three faces.
+// Returns a file with everything that a writer may produce: properties of each type, a quad, a
+// pentagon, an unknown element, comments, obj_info. It has five vertices (i, 0.5 i, -i) and three
+// faces.
 inline std::string RichPly(Encoding encoding, bool crlf) {
   std::string header = std::string("ply\nformat ") + FormatWord(encoding) +
                        " 1.0\ncomment first  with  blanks \nobj_info scanner 7\ncomment\n"
@@ -138,7 +139,7 @@ inline std::string RichPly(Encoding encoding, bool crlf) {
   return WithCrLf(header) + (encoding == Encoding::kAscii ? WithCrLf(body.body()) : body.body());
 }
 
-// A mesh of whatever stands in `vertex_rows` and `face_rows`, in ascii.
+// Returns an ascii mesh with the rows `vertex_rows` and `face_rows`.
 inline std::string AsciiMesh(const std::vector<std::string>& vertex_rows,
                              const std::vector<std::string>& face_rows) {
   std::ostringstream text;

@@ -19,7 +19,7 @@ TEST(MeshFormat, IsChosenByTheEndingInLettersOfEitherCase) {
   EXPECT_STREQ(MeshFormatOf("a.ply").ending, ".ply");
   EXPECT_STREQ(MeshFormatOf("folder.x/A.PCD").ending, ".pcd");
   EXPECT_STREQ(MeshFormatOf("a.ply.pcd").ending, ".pcd");
-  // Others are read as PLY, and say so when they are none.
+  // Other files are read as PLY; if they are none, the error says so.
   EXPECT_STREQ(MeshFormatOf("a").ending, ".ply");
   EXPECT_STREQ(MeshFormatOf("pcd").ending, ".ply");
   EXPECT_STREQ(MeshFormatOf("").ending, ".ply");

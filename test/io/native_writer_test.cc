@@ -37,7 +37,7 @@ class NativeSequenceWriterTest : public ::testing::Test {
     return writer.ok() ? *std::move(writer) : nullptr;
   }
 
-  // Frame k: the camera and the truth are k metres further along x.
+  // Returns frame k, in which the camera and the true surface have moved by k metres along x.
   NativeFrame Frame(int k) {
     truth_ = {{k + 0.1, 0, 0}, {k + 1.0, 0, 0}, {0.0 + k, 2, 0.3}};
     NativeFrame frame;

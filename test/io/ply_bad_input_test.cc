@@ -18,7 +18,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-// The error of reading `bytes` as a PLY, behind "bad.ply: ".
+// Returns the error of reading `bytes` as a PLY, without "bad.ply: ".
 std::string ErrorOf(const std::string& bytes) {
   const TemporaryDirectory directory;
   const std::string path = directory / "bad.ply";
@@ -133,7 +133,7 @@ TEST(PlyReader, NamesTheRowInWhichABinaryFileEnds) {
             "truncated: element 'face' promises 3 rows, the file ends in row 1");
 }
 
-// A list cannot be longer than the file, whatever stands in front of it in the row.
+// A list can't be longer than the file, whatever length is given before it.
 TEST(PlyReader, NamesTheRowOfAListThatIsLongerThanTheFile) {
   const std::string header =
       "ply\nformat binary_big_endian 1.0\nelement face 3\nproperty short s\n"
@@ -146,7 +146,7 @@ TEST(PlyReader, NamesTheRowOfAListThatIsLongerThanTheFile) {
   EXPECT_EQ(ErrorOf(header + std::string("\0", 1)), error + "0");
 }
 
-// The promised rows would take 32 GB and more.
+// The rows in the header would take 32 GB and more.
 TEST(PlyReader, PromisedCountsCostNoMemory) {
   const std::string rows =
       "element vertex 4000000000\nproperty double x\n"
@@ -157,7 +157,7 @@ TEST(PlyReader, PromisedCountsCostNoMemory) {
     EXPECT_THAT(ErrorOf("ply\nformat " + std::string(format) + " 1.0\n" + rows + "1234567\n"),
                 StartsWith("truncated: element 'vertex' promises 4000000000 rows"));
   }
-  // A list that promises 4e9 values.
+  // A list with a length of 4e9 values.
   EXPECT_THAT(ErrorOf("ply\nformat binary_little_endian 1.0\nelement face 1\n"
                       "property list uint int i\nend_header\n\xff\xff\xff\xff"
                       "abcdefgh"),
@@ -176,7 +176,8 @@ TEST(PlyReader, MissingFileAndDirectoryAreErrors) {
   EXPECT_THAT(ReadPly("/dev/null").status().message(), HasSubstr("expected a regular file"));
 }
 
-// Each cut of a good file is an error or a file that is still whole (the last line end is no loss).
+// A valid file that is cut at any byte gives an error, or is still complete (if only the last line
+// end is missing).
 TEST(PlyReader, SurvivesEveryTruncation) {
   const TemporaryDirectory directory;
   for (const Encoding encoding : {Encoding::kAscii, Encoding::kLittle, Encoding::kBig}) {
@@ -196,8 +197,8 @@ TEST(PlyReader, SurvivesEveryTruncation) {
   }
 }
 
-// Any byte may be any other: an error or a document, never a crash, and never rows of unequal
-// number.
+// If any byte is changed, the result is an error or a document with rows of equal number, never a
+// crash.
 TEST(PlyReader, SurvivesFlippedBytes) {
   const TemporaryDirectory directory;
   unsigned int random = 99;

@@ -143,7 +143,7 @@ TEST(PlyWriter, AsciiNumbersReadBackToTheSameBits) {
   unsigned int random = 12345;
   for (int i = 0; i < 2000; ++i) {
     random = random * 1664525u + 1013904223u;
-    // Magnitudes over the whole range of float, tiny ones that are subnormal too.
+    // The magnitudes cover the whole range of float, subnormal ones included.
     const double value =
         std::ldexp(static_cast<double>(random) / 4294967296.0 - 0.5, i % 270 - 145);
     floats.values.push_back(static_cast<double>(static_cast<float>(value)));
@@ -221,7 +221,7 @@ TEST(PlyReader, TakesSignedListCountsAndMixedLineEnds) {
   }
 }
 
-// The header of `bytes` with each line end replaced.
+// Returns `bytes` with each line end of its header replaced.
 std::string WithLineEnds(const std::string& bytes, const std::string& line_end) {
   const std::string last_line = "end_header\n";
   const std::size_t size = bytes.find(last_line) + last_line.size();
@@ -237,7 +237,7 @@ TEST_P(PlyRoundTrip, TakesCarriageReturnsAlone) {
   ASSERT_TRUE(expected.ok()) << expected.status().message();
   std::string with_cr = WithLineEnds(bytes, "\r");
   if (encoding() == Encoding::kAscii) std::replace(with_cr.begin(), with_cr.end(), '\n', '\r');
-  // In a binary file the first line may end otherwise than the rest.
+  // In a binary file the first line may end differently from the others.
   const std::string first_alone = "ply\r" + bytes.substr(4);
   for (const std::string& file : {with_cr, first_alone}) {
     WriteBytes(directory_ / "cr.ply", file);
@@ -260,7 +260,7 @@ TEST_P(PlyRoundTrip, TakesAByteOrderMarkAndBlanksBehindTheFirstWord) {
   }
 }
 
-// A body may begin with a byte that could be the rest of a line end.
+// A body may begin with a byte that could be a part of a line end.
 TEST(PlyReader, TakesNoByteOfABinaryBodyForALineEnd) {
   const TemporaryDirectory directory;
   const std::string header =
@@ -273,7 +273,7 @@ TEST(PlyReader, TakesNoByteOfABinaryBodyForALineEnd) {
   }
 }
 
-// Rows are taken in blocks.
+// Rows are read in blocks.
 TEST(PlyReader, ReadsManyRowsOfManyColumns) {
   const TemporaryDirectory directory;
   for (const Encoding encoding : {Encoding::kLittle, Encoding::kBig}) {

@@ -59,7 +59,7 @@ TEST_F(SceneTruthTest, ReadsBackAsWritten) {
 TEST_F(SceneTruthTest, StoresLittleEndianFloats) {
   const std::string bytes = ReadBytes(dir_ / kTruthVerticesName);
   ASSERT_EQ(bytes.size(), 12u * 3u * kFrames);
-  // 1 and 0.5, as IEEE 754 has them.
+  // 1 and 0.5 in the format of IEEE 754.
   EXPECT_EQ(bytes.substr(8, 4), std::string("\x00\x00\x80\x3f", 4));
   EXPECT_EQ(bytes.substr(12, 4), std::string("\x00\x00\x00\x3f", 4));
 }

@@ -1,4 +1,4 @@
-// Real sequences, where the environment variable CERES_ED_DATA tells their folder.
+// Tests on real sequences, whose folder is given by the environment variable CERES_ED_DATA.
 #include "ceres_ed/io/sequence/depth_sequence.h"
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Expected {
   int width, height;
   double units_per_metre;
   bool has_poses;
-  // Of the median depth of the first frame, metres.
+  // The range of the median depth in the first frame, in metres.
   double nearest, farthest;
 };
 

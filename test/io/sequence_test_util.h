@@ -17,7 +17,7 @@
 
 namespace ceres_ed {
 
-// Pictures of 4 x 3 pixels unless a test says otherwise; folders are made on the way.
+// Writes images of 4 x 3 pixels, unless a test asks for another size, and creates the folders.
 class SequenceFolder {
  public:
   std::string path() const { return directory_.path(); }
@@ -26,7 +26,7 @@ class SequenceFolder {
   void Text(const std::string& name, const std::string& contents) {
     WriteBytes(MakePath(name), contents);
   }
-  // Every pixel holds `units`.
+  // Every pixel is `units`.
   void Depth(const std::string& name, int units = 1000, int width = 4, int height = 3) {
     const DepthImage depth(width, height, static_cast<float>(units));
     EXPECT_TRUE(WriteDepthImage(MakePath(name), depth, 1.0).ok()) << name;
@@ -52,7 +52,7 @@ inline std::vector<int> FrameNumbers(const DepthSequence& sequence) {
   return numbers;
 }
 
-// The message of OpenSequence, with the folder's path replaced by DIR.
+// Returns the error of OpenSequence() with the path of the folder replaced by DIR.
 inline std::string OpenError(const SequenceFolder& folder, const SequenceOptions& options = {}) {
   const auto sequence = OpenSequence(folder.path(), options);
   if (sequence.ok()) return "no error";
@@ -64,7 +64,7 @@ inline std::string OpenError(const SequenceFolder& folder, const SequenceOptions
   return message;
 }
 
-// Warnings with the folder's path replaced by DIR.
+// Returns the warnings with the path of the folder replaced by DIR.
 inline std::vector<std::string> Warnings(const SequenceFolder& folder,
                                          const DepthSequence& sequence) {
   std::vector<std::string> warnings = sequence.warnings();
@@ -77,7 +77,7 @@ inline std::vector<std::string> Warnings(const SequenceFolder& folder,
 
 inline constexpr char kNativeCamera[] = "5 6 1.5 1 4 3 10000\n";
 
-// A native sequence with depth of the numbers given, 1000 + number in every pixel.
+// A native sequence with depth images of the given numbers. Every pixel is 1000 + number.
 class NativeSequenceTest : public ::testing::Test {
  protected:
   void Make(const std::vector<std::string>& names) {

@@ -18,7 +18,8 @@ using ::testing::IsEmpty;
 
 class TumSequences : public ::testing::Test {
  protected:
-  // Depth pictures 0.png, 1.png ... at the times given, all of 5000 + index units.
+  // Writes depth images 0.png, 1.png ... at the given times. All pixels of an image are 5000 +
+  // index units.
   void Make(const std::vector<std::string>& times) {
     std::string list = "# depth maps\n# timestamp filename\n";
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -28,7 +29,7 @@ class TumSequences : public ::testing::Test {
     }
     folder_.Text("depth.txt", list);
   }
-  // Colour pictures with their index as red.
+  // Writes colour images whose red channel is their index.
   void MakeColors(const std::vector<std::string>& times) {
     std::string list = "# color images\n";
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -46,7 +47,7 @@ class TumSequences : public ::testing::Test {
     }
     return std::move(*sequence);
   }
-  // The colour that each frame gets, -1 for none.
+  // Returns the colour image of each frame, -1 for none.
   std::vector<int> Reds() {
     std::vector<int> reds;
     const auto sequence = Open(folder_.path());
@@ -82,7 +83,7 @@ TEST_F(TumSequences, FramesAreNumberedByTimeAndDepthIsDividedBy5000) {
 TEST_F(TumSequences, ColorIsTheNearestInTimeWithin20Milliseconds) {
   Make({"10.00", "10.10", "10.20", "10.30"});
   MakeColors({"10.015", "9.99", "10.119", "10.221", "10.295"});
-  // Of 10.00: 9.99 is nearer than 10.015; 10.20: 0.021 s is too much.
+  // For 10.00, 9.99 is nearer than 10.015. For 10.20, a difference of 0.021 s is too large.
   EXPECT_THAT(Reds(), ElementsAre(1, 2, -1, 4));
   const auto sequence = Open(folder_.path());
   ASSERT_NE(sequence, nullptr);
@@ -91,11 +92,11 @@ TEST_F(TumSequences, ColorIsTheNearestInTimeWithin20Milliseconds) {
 }
 
 TEST_F(TumSequences, ColorBelongsToOneFrameTheNearest) {
-  // Red 0 is within reach of both; the second is nearer.
+  // Image 0 is near enough to both frames; the second one is nearer.
   Make({"10.000", "10.025"});
   MakeColors({"10.014"});
   EXPECT_THAT(Reds(), ElementsAre(-1, 0));
-  // The frame that loses its nearest colour takes the next one.
+  // The frame whose nearest image is taken by another one gets the next image.
   MakeColors({"9.985", "10.014"});
   EXPECT_THAT(Reds(), ElementsAre(0, 1));
 }

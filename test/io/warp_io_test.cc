@@ -145,7 +145,7 @@ TEST(WarpFile, NumberThatIsNotFiniteIsNotWritten) {
   EXPECT_EQ(directory.NumFiles(), 0u);
 }
 
-// The error, behind "w.json: ", of a good warp file after `spoil`.
+// Returns the error, without "w.json: ", for a valid warp file after `spoil` has changed it.
 std::string ErrorAfter(const std::function<void(json&)>& spoil) {
   const TemporaryDirectory directory;
   const std::string path = directory / "w.json";
@@ -218,7 +218,7 @@ TEST(WarpFile, TextThatIsNoJsonIsAnError) {
   const std::string path = directory / "w.json";
   ASSERT_TRUE(WriteWarp(path, MakeWarp()).ok());
   const std::string bytes = ReadBytes(path);
-  // Without its last brace and line end it is cut.
+  // The loop ends before the last brace and the line end, so each file is cut off.
   for (std::size_t size = 0; size + 2 < bytes.size(); size += 7) {
     WriteBytes(path, bytes.substr(0, size));
     EXPECT_THAT(ReadWarp(path).status().message(), HasSubstr("w.json: not JSON, or truncated"));

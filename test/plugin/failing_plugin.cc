@@ -1,4 +1,4 @@
-// Its own register function refuses.
+// A plugin whose register function returns an error.
 #include <ceres_ed/plugin/plugin_abi.h>
 
 static ceres_ed::Status Refuse(ceres_ed::EnergyRegistry*) {

@@ -1,4 +1,4 @@
-// An energy that pulls every node's translation to zero.
+// A plugin with an energy that pulls every node's translation to zero.
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/plugin/plugin_abi.h>
 

@@ -1,2 +1,2 @@
-// A shared object, but no plugin.
+// A shared object that is not a plugin.
 extern "C" int Answer() { return 42; }

@@ -32,7 +32,7 @@ std::string LoadError(const std::string& path) {
   return status.message();
 }
 
-// Keeps the cost functions that it is given.
+// A sink that keeps the cost functions that it is given.
 class CollectingSink : public ResidualSink {
  public:
   void Add(std::unique_ptr<ceres::CostFunction> cost, const BlockRef*, int, double) override {
@@ -124,7 +124,7 @@ TEST(PluginLoader, NotesWhereAnEnergyComesFrom) {
 }
 
 TEST(PluginLoader, FindsABareNameInTheWorkingDirectory) {
-  // A bare name reaches the file, so the complaint is about its contents.
+  // A name without a slash finds the file, so the error is about its contents.
   std::ofstream("bare_name.so") << "plain text, longer than the header of a shared object\n";
   EXPECT_THAT(LoadError("bare_name.so"), HasSubstr("./bare_name.so"));
   std::remove("bare_name.so");

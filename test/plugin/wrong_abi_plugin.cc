@@ -1,4 +1,5 @@
-// Says that it was built against an older Eigen; its register function must never be called.
+// A plugin that says that it was built against an older Eigen. Its register function must never be
+// called.
 #include <ceres_ed/plugin/plugin_abi.h>
 
 #include <cstdlib>

@@ -1,4 +1,4 @@
-// What a builder does with residuals that are no good.
+// How a builder handles residuals that are not valid.
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/testing/residual_collection.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Cannot be evaluated anywhere.
+// A cost function that can't be evaluated at any state.
 class FailingCost final : public ceres::CostFunction {
  public:
   FailingCost() {

@@ -15,7 +15,7 @@ namespace {
 struct Counts {
   int residual_blocks;
   int parameter_blocks;
-  // After Ceres has taken out what is constant.
+  // After Ceres has removed what is constant.
   int reduced_parameter_blocks;
   int reduced_effective_parameters;
 };
@@ -30,7 +30,7 @@ void ExpectCounts(const StripBuilder& strip, const ProblemConfig& config, const 
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, built.problem.get(), &summary);
-  // Nothing in a level is constant as a whole: such residuals were left out.
+  // No residual in a level is constant as a whole, since such residuals were left out.
   EXPECT_EQ(summary.num_residual_blocks_reduced, expected.residual_blocks);
   EXPECT_EQ(summary.fixed_cost, 0.0);
   EXPECT_EQ(summary.num_parameter_blocks_reduced, expected.reduced_parameter_blocks);
@@ -49,7 +49,8 @@ TEST(ProblemBuilder, CountsResidualsPerTerm) {
   const StripBuilder strip(HalfSeen());
   EXPECT_EQ(strip.builder.num_terms(), 3);
   EXPECT_EQ(strip.builder.NumResidualBlocks(strip.rotation), 18);
-  // 5 gaps of 3 edges along, 6 columns of 2 edges across, both ways.
+  // 5 gaps with 3 edges each along the strip and 6 columns with 2 edges each across it, in both
+  // directions.
   EXPECT_EQ(strip.builder.NumResidualBlocks(strip.regularization), 2 * 5 * 3 + 2 * 6 * 2);
   EXPECT_EQ(strip.builder.NumResidualBlocks(strip.data), 4);
 }
@@ -61,8 +62,9 @@ TEST(ProblemBuilder, FullProblemHasEverything) {
   ExpectCounts(with_camera, FullConfig(18, true), {18 + 54 + 4, 20, 20, 18 * 12 + 6});
 }
 
-// With `rings`, 3 + rings columns vary. `kKeep` has the edges of their 3 + rings gaps to the right
-// (2 * 3 each) and within the columns (2 * 2 each), and the next column is there, held.
+// With `rings`, 3 + rings columns are variable. `kKeep` has the edges in the 3 + rings gaps to the
+// right (2 * 3 each) and within the columns (2 * 2 each). The next column is part of the problem
+// and constant.
 TEST(ProblemBuilder, LevelOneKeepsTheSeamEdges) {
   const StripBuilder strip(HalfSeen());
   ExpectCounts(strip, LevelOne(strip, SeamEdges::kKeep, 0), {9 + 30 + 4, 12, 9, 108});
@@ -96,7 +98,8 @@ TEST(ProblemBuilder, ObservationsAreNeverCut) {
   config.variable_nodes.assign(18, 0);
   config.variable_nodes[0] = 1;
   config.seam_edges = SeamEdges::kCut;
-  // Node 0: its own rotation, no edge, and the one point of its cell over four nodes and a camera.
+  // Node 0 has its own rotation residual, no edge, and the one point of its cell, which touches
+  // four nodes and the camera.
   ExpectCounts(strip, config, {1 + 0 + 1, 6, 1, 12});
 }
 
@@ -124,7 +127,7 @@ TEST(ProblemBuilder, NodesThatObservationsTouchArePointRelevant) {
 
 TEST(ProblemBuilder, AnObservationWithoutWeightIsNotThere) {
   StripBuilder strip(HalfSeen());
-  // Points 2 and 3 are those of the second column of cells.
+  // Points 2 and 3 are in the second column of cells.
   strip.problem.correspondences[2].weight = 0.0;
   strip.problem.correspondences[3].weight = 0.0;
   strip.builder.CollectResiduals(

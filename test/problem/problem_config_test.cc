@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// 6 columns of 3 nodes; the first column is PR.
+// A strip of 6 columns with 3 nodes each. The first column is PR.
 TestProblem Strip() { return MakeTestProblem({}); }
 std::vector<char> FirstColumns(int columns) {
   std::vector<char> mask(18, 0);

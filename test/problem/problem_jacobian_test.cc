@@ -1,4 +1,4 @@
-// The sparsity of the paper's Jacobians, read off ceres::Problem.
+// Checks the sparsity of the paper's Jacobians on ceres::Problem.
 #include <ceres_ed/problem/problem_builder.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 namespace ceres_ed {
 namespace {
 
-// The Jacobian of one term alone, over all nodes in the given order, then the camera.
+// Returns the Jacobian of a single term, over all nodes in the given order, then the camera.
 ceres::CRSMatrix JacobianOf(StripBuilder* strip,
                             int term,
                             const std::vector<int>& order,
@@ -42,7 +42,7 @@ ceres::CRSMatrix JacobianOf(StripBuilder* strip,
   return jacobian;
 }
 
-// The node columns (column / 12) of each row.
+// Returns the node columns (column / 12) of each row.
 std::vector<std::set<int>> NodesOfRows(const ceres::CRSMatrix& jacobian) {
   std::vector<std::set<int>> nodes(jacobian.num_rows);
   for (int row = 0; row < jacobian.num_rows; ++row) {
@@ -53,7 +53,8 @@ std::vector<std::set<int>> NodesOfRows(const ceres::CRSMatrix& jacobian) {
   return nodes;
 }
 
-// PR nodes first, each kind from the last index to the first: PR nodes have the low ones anyway.
+// Returns the PR nodes first, each kind from the last index to the first. The reverse order is
+// needed since PR nodes have the low indices anyway.
 std::vector<int> PointRelevantFirst(const std::vector<char>& relevant) {
   std::vector<int> order;
   for (int j = static_cast<int>(relevant.size()) - 1; j >= 0; --j) order.push_back(j);
@@ -108,7 +109,7 @@ TEST(RegularizationJacobian, JoinsTheTwoNodesOfEachEdge) {
   for (int row = 0; row < J.num_rows; ++row) {
     const GraphEdge& edge = strip.problem.graph.edges()[row / 3];
     EXPECT_EQ(nodes[row], (std::set<int>{edge.from, edge.to}));
-    // Of node k only t_k is there with a value: A_k does not enter Eq. 6.
+    // Of node k only t_k has entries that are not zero: A_k is not part of Eq. 6.
     for (int i = J.rows[row]; i < J.rows[row + 1]; ++i) {
       const bool of_k = J.cols[i] / kNodeSize == edge.to;
       if (of_k && J.cols[i] % kNodeSize < kNodeTranslationOffset) {
@@ -118,7 +119,8 @@ TEST(RegularizationJacobian, JoinsTheTwoNodesOfEachEdge) {
   }
 }
 
-// d E_data / d Phi = R_c Pi (Eq. 13): the matrix form gives the data Jacobian by the nodes.
+// d E_data / d Phi = R_c Pi (Eq. 13): the matrix form gives the Jacobian of the data term by the
+// nodes.
 TEST(DataJacobian, IsThatOfTheMatrixForm) {
   StripBuilder strip(HalfSeen(true, 2));
   std::vector<int> order;

@@ -15,7 +15,8 @@
 
 namespace ceres_ed {
 
-// Points in the first two of five columns of cells: the first three of six columns of nodes are PR.
+// Returns a strip with points in the first two of five columns of cells, so that the first three of
+// six columns of nodes are PR.
 inline TestProblemOptions HalfSeen(bool has_camera = false, int points_per_cell = 1) {
   TestProblemOptions options;
   options.observed_columns = 2;
@@ -25,7 +26,7 @@ inline TestProblemOptions HalfSeen(bool has_camera = false, int points_per_cell 
   return options;
 }
 
-// Weights are prime-like, so that a mix-up shows.
+// A strip with its energies. Their weights have no common factors, so that a confusion is noticed.
 struct StripBuilder {
   explicit StripBuilder(const TestProblemOptions& options, const std::string& data_energy = "")
       : problem(MakeTestProblem(options)), builder(problem.graph, options.has_camera) {
@@ -56,7 +57,7 @@ struct StripBuilder {
   int data = -1;
 };
 
-// The parameters of all nodes and of the camera, to compare to the bit.
+// Returns the parameters of all nodes and of the camera, so that their bits can be compared.
 inline std::vector<double> AllParameters(const DeformationState& state) {
   std::vector<double> all;
   for (int j = 0; j < state.num_nodes(); ++j) {

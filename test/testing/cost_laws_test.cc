@@ -18,8 +18,8 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// r = (x^2 - y, sin(y) x) over blocks x (1) and y (2, the second of no effect), with faults to
-// order.
+// The residual r = (x^2 - y, sin(y) x) over the blocks x (size 1) and y (size 2, the second entry
+// has no effect), with faults that a test can choose.
 struct Fault {
   bool wrong_jacobian = false;
   bool unwritten_jacobian = false;

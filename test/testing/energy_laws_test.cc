@@ -17,7 +17,7 @@ using ::testing::Contains;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-// gain * t_j
+// The residual gain * t_j.
 struct AnchorCost {
   template <typename T>
   bool operator()(const T* node, T* residuals) const {

@@ -12,7 +12,7 @@
 
 namespace {
 
-// What is allocated at present, as the allocator counts it.
+// The number of bytes that are allocated now, as the allocator counts them.
 std::size_t held = 0;
 
 }  // namespace
@@ -34,7 +34,7 @@ void operator delete(void* memory, std::size_t /*size*/) noexcept { operator del
 namespace ceres_ed {
 namespace {
 
-// The share by which a count may be off: blocks that are too small to be cut leave some room.
+// The fraction by which a count may be off: blocks that are too small to be split leave some room.
 constexpr double kSlack = 0.05;
 
 template <typename Container, typename Fill, typename Count>

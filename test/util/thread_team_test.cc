@@ -14,7 +14,7 @@
 namespace ceres_ed {
 namespace {
 
-// Returns the ids of the threads that took part when each of `count` tasks waits for all others.
+// Returns the ids of the threads that take part when each of `count` tasks waits for all others.
 std::set<std::thread::id> ThreadsThatMeet(int count) {
   std::vector<std::thread::id> ids(count);
   std::atomic<int> arrived{0};
@@ -43,12 +43,12 @@ TEST(RunTasks, SeesWhatTasksOfManyQuickCallsHaveWritten) {
 }
 
 TEST(RunTasks, UsesAsManyThreadsAsTasksAndTheSameAgain) {
-  // A caller of its own has a team of its own.
+  // Another calling thread has a team of its own.
   std::thread([] {
     const std::set<std::thread::id> first = ThreadsThatMeet(3);
     EXPECT_EQ(first.size(), 3U);
     EXPECT_EQ(first.count(std::this_thread::get_id()), 1U);
-    // Long enough for all to fall asleep.
+    // This is long enough for all helpers to fall asleep.
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_EQ(ThreadsThatMeet(3), first);
   }).join();
@@ -65,7 +65,7 @@ TEST(RunTasks, RunsCallsWithinATaskOnItsThread) {
 }
 
 TEST(RunTasks, DoesNotWaitForAHelperThatIsSlow) {
-  // A helper is stuck at the first task that it gets; the caller takes all others meanwhile.
+  // A helper is stuck in the first task that it gets. Meanwhile the caller takes all others.
   const std::thread::id caller = std::this_thread::get_id();
   std::atomic<int> by_caller{0};
   std::atomic<int> by_helper{0};
@@ -119,7 +119,7 @@ TEST(RunTasks, WorksInAForkedChild) {
 }
 
 TEST(RunTasks, LetsTheProcessExitFromATask) {
-  // A process of its own, not a fork of this one.
+  // The death test starts a new process and does not fork this one.
   testing::GTEST_FLAG(death_test_style) = "threadsafe";
   EXPECT_EXIT(
       {

@@ -19,7 +19,7 @@ TEST(Timer, RestartReturnsTheTimeAndStartsFromZero) {
   std::this_thread::sleep_for(std::chrono::milliseconds(20));
   const double before = timer.Restart();
   EXPECT_GE(before, 0.020);
-  // Two calls in a row take far less than the sleep.
+  // Two calls in a row take much less time than the sleep.
   EXPECT_LT(timer.Seconds(), before);
 }
 
