@@ -14,7 +14,8 @@
 namespace ceres_ed {
 namespace {
 
-// A factor of fewer multiplications than this takes less time than a better order of it.
+// If a factorisation takes fewer multiplications than this, the search for a better order would
+// take longer than the factorisation.
 constexpr double kSmallFactor = 5e8;
 
 double NumOperations(const std::vector<Front>& fronts) {
@@ -23,6 +24,8 @@ double NumOperations(const std::vector<Front>& fronts) {
   return operations;
 }
 
+// Orders the vertices and lays out the factor. Minimum degree is always tried; nested dissection is
+// tried for large factors and kept if it needs fewer operations.
 FactorLayout LayOut(const BlockStructure& structure,
                     const BlockVertices& vertices,
                     int num_trailing) {
@@ -60,7 +63,8 @@ struct BlockCholesky::Impl {
   const BlockVertices vertices;
   FactorMemory own_memory;
   MultifrontalFactor factor;
-  // Rows in the order of elimination: what is added to the diagonal, then what is solved for.
+  // A vector with its rows in the order of elimination: first the values that are added to the
+  // diagonal, later the right side and its solution.
   Eigen::VectorXd ordered;
 };
 

@@ -1,4 +1,4 @@
-// Sparse Cholesky of a block matrix, with the symbolic part kept.
+// Sparse Cholesky factorisation of a block matrix; its symbolic part is computed once and kept.
 #ifndef CERES_ED_LINEAR_ALGEBRA_BLOCK_CHOLESKY_H_
 #define CERES_ED_LINEAR_ALGEBRA_BLOCK_CHOLESKY_H_
 
@@ -13,16 +13,21 @@
 
 namespace ceres_ed {
 
-// Factorises H + diag(d) = L L^T, multifrontal. Ordered on the graph of the blocks, which is an
-// order of magnitude smaller than the scalar one. A block whose head shares nothing with
-// other heads has its head eliminated ahead of all, so that three rows of it are left where twelve
-// would be. With dual blocks the factor is L S L^T with S = -1 for their rows, 1 elsewhere.
+// The multifrontal Cholesky factorisation H + diag(d) = L L^T of a sparse block matrix H.
+//
+// The order of elimination is computed on the graph of the blocks, which is smaller than the graph
+// of the scalar rows by an order of magnitude. If the head of a block shares no value with the
+// heads of other blocks, the head is eliminated before everything else, so that three of the twelve
+// rows of the block are left. With dual blocks the factorisation is L S L^T, where S is -1 for dual
+// rows and 1 for the others.
+//
 // One object serves one thread at a time.
 class BlockCholesky {
  public:
-  // Analyses `structure`, which must outlive this. Its last `num_trailing` blocks come last in the
-  // order of elimination, too, so that the factor ends in theirs.
-  // `memory` outlives this and serves no other factor meanwhile; null: memory of its own.
+  // Analyses `structure`, which must outlive this object. Its last `num_trailing` blocks also come
+  // last in the order of elimination, so that the factor ends with their rows and columns. `memory`
+  // must outlive this object and must not serve another factor at the same time; if it is null, the
+  // object uses memory of its own.
   explicit BlockCholesky(const BlockStructure& structure,
                          int num_trailing = 0,
                          FactorMemory* memory = nullptr);
@@ -30,31 +35,35 @@ class BlockCholesky {
   BlockCholesky(const BlockCholesky&) = delete;
   BlockCholesky& operator=(const BlockCholesky&) = delete;
 
-  // `values` in the layout of the structure (of diagonal blocks the lower triangle counts),
-  // `diagonal` of num_rows() is added. False when the sum isn't positive definite. The same bits at
-  // any number of threads.
+  // Factorises the matrix with these `values` and `diagonal` added. `values` has the layout of the
+  // structure (only the lower triangle of a diagonal block is read), and `diagonal` has num_rows()
+  // entries. Returns false if the sum is not positive definite (with dual blocks: not
+  // quasi-definite). The result has the same bits at any number of threads.
   bool Factorize(const double* values, const Eigen::VectorXd& diagonal, int num_threads = 1);
 
-  // The solution for `rhs` of num_rows(), with the last successful factor.
+  // Returns the solution for a right side `rhs` of num_rows() entries, with the last successful
+  // factor.
   Eigen::VectorXd Solve(const Eigen::VectorXd& rhs);
 
-  // L^-1 rhs and L^-T rhs (of a structure without dual blocks) with the last successful factor,
-  // which is that of a permuted matrix: rows stand in the order of the structure all the same.
+  // Return L^-1 rhs and L^-T rhs with the last successful factor, for a structure without dual
+  // blocks. L is the factor of a permuted matrix, but the rows of the argument and of the result
+  // have the order of the structure.
   Eigen::VectorXd SolveLower(const Eigen::VectorXd& rhs);
   Eigen::VectorXd SolveUpper(const Eigen::VectorXd& rhs);
 
-  // The rows and columns of L that belong to the trailing blocks: the Cholesky factor of their
-  // Schur complement (Eq. 20). Lower triangle, zeros above it.
+  // Returns the rows and columns of L that belong to the trailing blocks, which are the Cholesky
+  // factor of their Schur complement (Eq. 20). The matrix is lower triangular, with zeros above the
+  // diagonal.
   Eigen::MatrixXd TrailingFactor() const;
 
-  // The inverse where the factor may be non-zero, with the last successful factor of a structure
-  // without dual blocks. This must outlive it.
+  // Returns the entries of the inverse at all places where the factor may be non-zero, with the
+  // last successful factor of a structure without dual blocks. This object must outlive the result.
   SelectedInverse Invert() const;
 
-  // Multiplications that one factorisation takes.
+  // Returns the number of multiplications that one factorisation takes.
   double NumOperations() const;
 
-  // Numbers that the factor keeps.
+  // Returns the number of values that the factor stores.
   std::size_t NumValues() const;
 
  private:

@@ -6,7 +6,7 @@
 namespace ceres_ed {
 namespace {
 
-// Sorts stably by `key`, which is in [0, num_keys).
+// Returns `pairs` in a stable order by `key`, whose values lie in [0, num_keys).
 template <typename Key>
 std::vector<BlockPair> CountingSort(const std::vector<BlockPair>& pairs, int num_keys, Key key) {
   std::vector<int> next(num_keys + 1, 0);
@@ -17,7 +17,8 @@ std::vector<BlockPair> CountingSort(const std::vector<BlockPair>& pairs, int num
   return sorted;
 }
 
-// The lower triangle with its diagonal, by column and then row, each entry once.
+// Returns the entries of the lower triangle with its diagonal, sorted by column and then by row,
+// each entry once.
 std::vector<BlockPair> SortedEntries(int num_blocks, const std::vector<BlockPair>& pairs) {
   std::vector<BlockPair> all;
   all.reserve(pairs.size() + num_blocks);

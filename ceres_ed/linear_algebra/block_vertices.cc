@@ -3,7 +3,8 @@
 namespace ceres_ed {
 namespace {
 
-// One entry a block: whether it can be split, and its head shares no value with another head.
+// Returns one entry per block, which is non-zero if the block can be split, that is, if it has
+// kSplitBlockSize rows and its head shares no value with another head.
 std::vector<char> LoneHeads(const BlockStructure& structure, int num_trailing) {
   std::vector<char> lone(structure.num_blocks(), 0);
   for (int j = 0; j < structure.num_blocks() - num_trailing; ++j) {

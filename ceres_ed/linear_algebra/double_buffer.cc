@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kCacheLine = 64;
 constexpr std::size_t kLargePage = std::size_t{1} << 21;
-// Arrays that come and go with each frame stay below: whole pages would leave gaps between them.
+// Arrays that are allocated and freed with each frame are smaller than this; whole large pages
+// would leave gaps between them.
 constexpr std::size_t kWorthLargePages = std::size_t{64} << 20;
 
 std::size_t RoundUp(std::size_t size, std::size_t unit) { return (size + unit - 1) / unit * unit; }
@@ -49,7 +50,8 @@ DoubleBuffer::DoubleBuffer(std::size_t size) : size_(size), data_(Allocate(size)
 
 void DoubleBuffer::Require(std::size_t size) {
   if (size <= size_) return;
-  // Freed ahead of the new one: both at once would be the peak.
+  // The old array is freed first; otherwise both arrays together would be the peak of the memory
+  // use.
   data_.reset();
   *this = DoubleBuffer(size_ == 0 ? size : size + size / 4);
 }

@@ -1,4 +1,4 @@
-// Memory of the large arrays of a factorisation.
+// Memory for the large arrays of a factorisation.
 #ifndef CERES_ED_LINEAR_ALGEBRA_DOUBLE_BUFFER_H_
 #define CERES_ED_LINEAR_ALGEBRA_DOUBLE_BUFFER_H_
 
@@ -7,18 +7,20 @@
 
 namespace ceres_ed {
 
-// Asks the system for large pages in a range that has not been touched yet: it hands them out in a
-// small part of the time. A wish: where it isn't granted nothing is lost.
+// Asks the system to use large pages for a range that has not been touched yet, because the system
+// provides them in a small part of the time that small pages take. The system may decline, which
+// does no harm.
 void WishForLargePages(void* data, std::size_t bytes);
 
-// Doubles that start on a line of the cache and aren't set: memory that isn't needed isn't touched.
-// Large ones wish for large pages.
+// An array of doubles that starts on a cache line and is not initialised, so that memory which is
+// not needed is not touched. Large arrays ask for large pages.
 class DoubleBuffer {
  public:
   explicit DoubleBuffer(std::size_t size);
 
-  // Sees to it that there are `size` doubles; what was there is gone when there were fewer. A
-  // little more than asked, so that sizes that go up and down settle.
+  // Ensures that there is room for `size` doubles. The contents are lost if there was less room
+  // before. The new array is a little larger than requested, so that sizes which rise and fall do
+  // not lead to repeated allocation.
   void Require(std::size_t size);
 
   double* data() const { return data_.get(); }
@@ -33,7 +35,7 @@ class DoubleBuffer {
   std::unique_ptr<double, Free> data_;
 };
 
-// The memory of a factorisation, to be handed from one to the next.
+// The memory of a factorisation, which can be passed from one factorisation to the next.
 struct FactorMemory {
   DoubleBuffer panels{0};
   DoubleBuffer updates{0};

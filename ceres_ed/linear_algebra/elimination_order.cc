@@ -14,7 +14,7 @@
 namespace ceres_ed {
 namespace {
 
-// Columns of a symmetric pattern, with its diagonal, by row.
+// The columns of a symmetric pattern with its diagonal; each column is sorted by row.
 struct Pattern {
   std::vector<int> begins = {0};
   std::vector<int> rows;
@@ -22,8 +22,9 @@ struct Pattern {
   int size() const { return static_cast<int>(begins.size()) - 1; }
 };
 
-// The graph on the vertices that `index` numbers (>= 0), as it is when all others with `first` have
-// been eliminated: these join their neighbours to each other. The lower triangle alone.
+// Returns the graph on the vertices that have a number `index` >= 0, after all other vertices with
+// `first` have been eliminated; the elimination of a vertex joins its neighbours to each other. The
+// result contains the lower triangle only.
 Pattern Condensed(const RowGraph& graph,
                   const std::vector<char>& first,
                   const std::vector<int>& index) {
@@ -97,7 +98,7 @@ std::vector<int> Order(Pattern* pattern, OrderingMethod /*method*/) {
 
 #endif
 
-// Of each vertex: the part of the graph that it is connected to, by number.
+// Returns, for each vertex, the number of the connected part of the graph that it belongs to.
 std::vector<int> ConnectedParts(const RowGraph& graph) {
   std::vector<int> part(graph.num_vertices(), -1);
   std::vector<int> open;
@@ -121,10 +122,11 @@ std::vector<int> ConnectedParts(const RowGraph& graph) {
   return part;
 }
 
-// Three points hold a rigid motion unless they are in line; one more makes that unlikely.
+// Three points fix a rigid motion unless they lie on a line, which a fourth point makes unlikely.
 constexpr int kAnchors = 4;
 
-// Moves the last vertices of each part that are neither dual nor `first` to the end.
+// Moves the last kAnchors vertices of each part that are neither dual nor `first` to the end of the
+// order.
 void PutAnchorsLast(const RowGraph& graph,
                     const std::vector<char>& first,
                     std::vector<int>* order) {

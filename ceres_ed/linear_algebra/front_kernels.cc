@@ -11,7 +11,8 @@
 namespace ceres_ed {
 namespace {
 
-// A vector of kLanes doubles, loaded and stored at any double's address.
+// A SIMD vector of kLanes doubles, which can be loaded from and stored to the address of any
+// double.
 template <int kLanes>
 struct Vector {
   typedef double Type __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
@@ -29,8 +30,8 @@ CERES_ED_INLINE const typename Vector<kLanes>::Type& At(const double* address) {
   return *reinterpret_cast<const typename Vector<kLanes>::Type*>(address);
 }
 
-// C (kVectors * kLanes rows, `columns` <= kColumns columns) = [C] + sign A B^T over `depth` columns
-// of A and B, which share a stride. All kColumns rows of B are read.
+// Computes C = [C] + sign A B^T for a tile C of kVectors * kLanes rows and `columns` <= kColumns
+// columns. A and B have `depth` columns and share a stride. All kColumns rows of B are read.
 template <int kLanes, int kVectors, int kColumns, bool kOverwrite>
 CERES_ED_INLINE void MultiplyTile(int depth,
                                   const double* A,
@@ -65,8 +66,8 @@ CERES_ED_INLINE void MultiplyTile(int depth,
   }
 }
 
-// The same for any number of rows that is a multiple of kRowUnit, and `columns` <= kRowUnit. It has
-// the nine arguments that a product of matrices has in BLAS.
+// Does the same for any number of rows that is a multiple of kRowUnit, and for `columns` <=
+// kRowUnit. It has the nine arguments that a product of matrices has in BLAS.
 template <int kLanes, int kVectors, int kColumns, bool kOverwrite>
 // NOLINTNEXTLINE(readability-function-size)
 CERES_ED_INLINE void MultiplyStrip(int rows,
@@ -93,8 +94,8 @@ CERES_ED_INLINE void MultiplyStrip(int rows,
   }
 }
 
-// Cholesky of the lower triangle of a `width` x `width` block; the inverse diagonal goes to
-// `inverse`.
+// Computes the Cholesky factor of the lower triangle of a `width` x `width` block, and writes the
+// inverse of its diagonal to `inverse`.
 CERES_ED_INLINE bool FactorizeDiagonal(int width, int stride, double* block, double* inverse) {
   for (int c = 0; c < width; ++c) {
     double* column = block + static_cast<std::ptrdiff_t>(c) * stride;
@@ -113,7 +114,8 @@ CERES_ED_INLINE bool FactorizeDiagonal(int width, int stride, double* block, dou
   return true;
 }
 
-// rows <- rows L^-T for kVectors * kLanes rows of `width` columns, with the triangle at `block`.
+// Computes rows <- rows L^-T for kVectors * kLanes rows of `width` columns, with the triangle L at
+// `block`.
 template <int kLanes, int kVectors>
 CERES_ED_INLINE void SolveTile(
     int width, int stride, const double* block, const double* inverse, double* rows) {
@@ -135,13 +137,14 @@ CERES_ED_INLINE void SolveTile(
 }
 
 template <int kLanes, int kVectors, int kColumns>
+// The blocked factorisation behind FactorizePanel(), in blocks of kPanelWidth columns.
 CERES_ED_INLINE bool Panel(int width, int rows, int stride, double* panel) {
   double inverse[kPanelWidth];
   for (int first = 0; first < width; first += kPanelWidth) {
     const int block_width = std::min(kPanelWidth, width - first);
     double* block = panel + static_cast<std::ptrdiff_t>(first) * stride + first;
     if (first > 0) {
-      // What the columns before this block take from it.
+      // Subtracts the contribution of the columns before this block.
       for (int c = 0; c < block_width; c += kRowUnit) {
         MultiplyStrip<kLanes, kVectors, kColumns, false>(
             rows - first - c,
@@ -156,8 +159,8 @@ CERES_ED_INLINE bool Panel(int width, int rows, int stride, double* panel) {
       }
     }
     if (!FactorizeDiagonal(block_width, stride, block, inverse)) return false;
-    // Rows from the next unit on; those of this block that share its last unit are zero or belong
-    // to it.
+    // Solves for the rows from the next unit on. The rows before it that share the last unit of
+    // this block are zero or belong to the block.
     int row = RoundUpRows(block_width);
     const int end = rows - first;
     for (; row + kVectors * kLanes <= end; row += kVectors * kLanes) {
@@ -170,7 +173,8 @@ CERES_ED_INLINE bool Panel(int width, int rows, int stride, double* panel) {
   return true;
 }
 
-// Rows that stay in the second-level cache while all columns go over them.
+// The number of rows that stay in the second-level cache while all columns are multiplied with
+// them.
 constexpr int kRowBlock = 192;
 
 template <int kLanes, int kVectors, int kColumns, bool kOverwrite>
@@ -193,7 +197,8 @@ CERES_ED_INLINE void AddColumns(const OuterProduct& product, int first, int last
   }
 }
 
-// Columns of a panel that are gone through together, so that the vector is loaded once for all.
+// The number of columns of a panel that are processed together, so that the vector is loaded once
+// for all of them.
 constexpr int kColumnGroup = 4;
 
 template <int kLanes, int kColumns>
@@ -249,7 +254,7 @@ CERES_ED_INLINE void TransposedProduct(
   }
 }
 
-// The kernels of one kind of machine.
+// The kernels for one kind of processor.
 struct Kernels {
   const char* name;
   bool (*factorize_panel)(int, int, int, double*);
@@ -258,7 +263,8 @@ struct Kernels {
   void (*transposed_product)(int, int, const double*, int, const double*, double*);
 };
 
-// `LANES` doubles a vector, tiles of `VECTORS` by `COLUMNS`: as many as there are registers.
+// Defines kernels with `LANES` doubles per SIMD vector and tiles of `VECTORS` by `COLUMNS`, which
+// fill the registers of that processor.
 // NOLINTBEGIN(bugprone-macro-parentheses): NAME is part of names, and TARGET an attribute.
 #define CERES_ED_DEFINE_KERNELS(NAME, TEXT, TARGET, LANES, VECTORS, COLUMNS)          \
   TARGET bool NAME##Panel(int width, int rows, int stride, double* panel) {           \

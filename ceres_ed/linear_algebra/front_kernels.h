@@ -1,49 +1,52 @@
-// Dense kernels of the frontal matrices of a sparse Cholesky factorisation.
+// Dense kernels for the frontal matrices of a sparse Cholesky factorisation.
 //
-// Matrices are column-major; rows are padded to kRowUnit, so that no kernel has a rest to deal
-// with. Compiled for AVX-512, AVX2 and plain x86-64 in one library; the machine at hand decides.
+// All matrices are column-major. Their rows are padded to a multiple of kRowUnit, so that no kernel
+// has to treat a remainder. One library contains the kernels compiled for AVX-512, for AVX2 and for
+// plain x86-64, and the processor at run time decides which of them are used.
 #ifndef CERES_ED_LINEAR_ALGEBRA_FRONT_KERNELS_H_
 #define CERES_ED_LINEAR_ALGEBRA_FRONT_KERNELS_H_
 
 namespace ceres_ed {
 
-// Rows and leading dimensions of fronts are multiples of this.
+// The number of rows and the leading dimension of a front are multiples of this.
 inline constexpr int kRowUnit = 8;
-// Columns that are factorised at a time.
+// The number of columns that are factorised at a time.
 inline constexpr int kPanelWidth = 24;
 
+// Returns `rows` rounded up to a multiple of kRowUnit.
 inline constexpr int RoundUpRows(int rows) { return (rows + kRowUnit - 1) / kRowUnit * kRowUnit; }
 
-// What the kernels of this process are compiled for: "AVX-512", "AVX2" or "plain".
+// Returns what the kernels of this process are compiled for: "AVX-512", "AVX2" or "plain".
 const char* FrontKernelName();
 
-// Factorises the first `width` columns of a front in place: [L11; L21] for [F11; F21], lower
-// triangle of F11 alone. Rows [width, RoundUpRows(width)) are zero; F21 starts behind them.
-// `rows` in all, a multiple of kRowUnit; `stride` >= rows a column. What stands above the diagonal
-// is overwritten. False when F11 isn't positive definite.
+// Factorises the first `width` columns of a front in place: replaces [F11; F21] by [L11; L21],
+// where only the lower triangle of F11 is read. Rows [width, RoundUpRows(width)) are zero, and F21
+// starts after them. The panel has `rows` rows in all, a multiple of kRowUnit, and a column stride
+// of `stride` >= rows. Values above the diagonal are overwritten. Returns false if F11 is not
+// positive definite.
 bool FactorizePanel(int width, int rows, int stride, double* panel);
 
-// update = [update] + sign L21 L21^T, lower triangle (what stands above the diagonal is
-// overwritten). L21 has `rows` rows, a multiple of kRowUnit, and `width` columns.
+// The operation update = [update] + sign L21 L21^T on the lower triangle (values above the diagonal
+// are overwritten). L21 has `rows` rows, a multiple of kRowUnit, and `width` columns.
 struct OuterProduct {
   int width = 0;
   int rows = 0;
   const double* L21 = nullptr;
   int stride = 0;
   double sign = -1.0;
-  // Whether `update` is added to, or overwritten.
+  // Whether the product is added to `update` (true) or overwrites it (false).
   bool accumulate = false;
   double* update = nullptr;
   int update_stride = 0;
 };
 
-// Columns [first, last) of a product; `first` is a multiple of kRowUnit.
+// Computes columns [first, last) of the product. `first` is a multiple of kRowUnit.
 void AddOuterProduct(const OuterProduct& product, int first, int last);
 
-// x -= L y for a panel of `rows` rows, a multiple of kRowUnit, and `width` columns.
+// Computes x -= L y for a panel of `rows` rows, a multiple of kRowUnit, and `width` columns.
 void SubtractProduct(int width, int rows, const double* L, int stride, const double* y, double* x);
 
-// y -= L^T x.
+// Computes y -= L^T x for the same kind of panel.
 void SubtractTransposedProduct(
     int width, int rows, const double* L, int stride, const double* x, double* y);
 

@@ -8,16 +8,19 @@
 namespace ceres_ed {
 namespace {
 
-// Trees of fewer operations than this are one task, others at least this many.
+// A tree with fewer operations than kOneTask is one task; others are divided into at least
+// kMinTasks tasks.
 constexpr double kOneTask = 2e7;
 constexpr int kMinTasks = 12;
-// A stride that is a multiple of a page puts all columns into the same lines of the cache.
+// A stride that is a multiple of a page would map all columns to the same cache lines.
 constexpr int kPageDoubles = 512;
 
 int StrideFor(int rows) { return rows % kPageDoubles == 0 && rows > 0 ? rows + kRowUnit : rows; }
 
 void AppendRow(int from, int to, int length, std::vector<RowRun>* runs) {
   if (!runs->empty() && runs->back().from + runs->back().length == from &&
+      // Appends a row to `runs`: extends the last run if the new rows continue it, else starts a
+      // new run.
       runs->back().to + runs->back().length == to) {
     runs->back().length += length;
   } else {
@@ -53,7 +56,7 @@ class Planner {
   const std::vector<BlockPiece>& source_pieces_;
   const std::vector<Front>& fronts_;
   FactorLayout layout_;
-  // Of each vertex: the front that eliminates it and its column there.
+  // For each vertex: the front that eliminates it, and its column in that front.
   std::vector<int> front_of_;
   std::vector<int> column_of_;
 };
@@ -90,7 +93,7 @@ void Planner::PlacePanels() {
 }
 
 void Planner::PlaceRuns() {
-  // Row of each vertex in the update of the front at hand.
+  // The row of each vertex in the update of the current front.
   std::vector<int> row_of(vertices_.size(), -1);
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
     int row = 0;
@@ -148,7 +151,8 @@ void Planner::PlacePieces() {
   }
 }
 
-// Subtrees of about equal work: the largest one is cut until there are enough.
+// Chooses disjoint subtrees of about equal work as tasks: subtrees with more than 1 / kMinTasks of
+// the operations are cut into those of their children.
 void Planner::ChooseTasks() {
   const int n = static_cast<int>(fronts_.size());
   std::vector<double> work(n);
@@ -184,8 +188,8 @@ void Planner::ChooseTasks() {
   });
 }
 
-// Updates of even and of odd depth on a stack each: when a front is done, those of its children
-// are on top of theirs.
+// Puts the updates of fronts at even and at odd depth on two separate stacks. When a front has been
+// computed, the updates of its children are therefore on top of the other stack and can be removed.
 void Planner::PlaceUpdatesOf(const std::vector<int>& fronts) {
   std::vector<char> here(fronts_.size(), 0);
   for (const int f : fronts) here[f] = 1;
@@ -204,7 +208,7 @@ void Planner::PlaceUpdatesOf(const std::vector<int>& fronts) {
     const std::size_t stack = parity[f] == 0 ? 0 : 1;
     const int parent = fronts_[f].parent;
     FrontLayout& place = layout_.fronts[f];
-    // What another task takes stays where nothing overwrites it.
+    // An update that is needed by another task is kept at a place where nothing overwrites it.
     place.is_kept = parent >= 0 && here[parent] == 0;
     std::size_t& end = place.is_kept ? layout_.kept_size : top[stack];
     place.update = end;

@@ -1,4 +1,5 @@
-// Where everything of a multifrontal factorisation lies in memory, and in which order it is done.
+// The memory layout of a multifrontal factorisation, and the order in which its fronts are
+// computed.
 #ifndef CERES_ED_LINEAR_ALGEBRA_FRONT_LAYOUT_H_
 #define CERES_ED_LINEAR_ALGEBRA_FRONT_LAYOUT_H_
 
@@ -10,52 +11,58 @@
 
 namespace ceres_ed {
 
-// Rows next to each other here and there.
+// A run of rows that are adjacent in a source and in a destination: `length` rows from row `from`
+// on go to row `to` on.
 struct RowRun {
   int from = 0;
   int to = 0;
   int length = 0;
 };
 
-// A front's panel [L11; L21] is kept; its update -L21 L21^T lives until the parent has taken it.
+// The layout of one front. Its panel [L11; L21] is kept; its update -L21 L21^T exists until the
+// parent has added it.
 struct FrontLayout {
-  // Columns: `dual_width` dual ones, then the others. Rows of the panel: as many, but the others
-  // start at `own_row`.
+  // The number of columns: the `dual_width` dual columns come first, then the others. The panel has
+  // as many rows of its own; those that are not dual start at `own_row`.
   int dual_width = 0;
   int width = 0;
   int own_row = 0;
-  // Rows of the update, as they are and as they are stored. L21 starts at row `below_row` of the
-  // panel.
+  // The number of rows of the update, without and with padding. L21 starts at row `below_row` of
+  // the panel.
   int update_rows = 0;
   int padded_update_rows = 0;
   int below_row = 0;
   int panel_stride = 0;
   int update_stride = 0;
+  // Where the panel starts, in the array of all panels.
   std::size_t panel = 0;
-  // Among those that are kept, or on the stack of the thread at work.
+  // Where the update starts: among the updates that outlive their task if `is_kept`, else on the
+  // stack of the thread that computes it.
   std::size_t update = 0;
   bool is_kept = false;
-  // Position of its first column in the order of elimination; the others follow.
+  // The position of the first column in the order of elimination; the other columns follow it.
   int first_position = 0;
-  // Rows of the update: from there to positions in the order of elimination.
+  // Maps the rows of the update to positions in the order of elimination.
   std::vector<RowRun> below;
-  // Rows of the update: from there to those rows of the parent's panel that are its columns, then
-  // to rows of the parent's update.
+  // Map the rows of the update to the rows of the parent: `to_columns` to those rows of the
+  // parent's panel that belong to its own columns, `to_update` to rows of the parent's update.
   std::vector<RowRun> to_columns;
   std::vector<RowRun> to_update;
   std::vector<int> children;
+  // The pieces [first_piece, last_piece) of FactorLayout::pieces belong to this front.
   int first_piece = 0;
   int last_piece = 0;
 
   int panel_rows() const { return below_row + padded_update_rows; }
-  // The row of the panel in which a column has its diagonal, and the other way round.
+  // Converts a column to the row of the panel that contains its diagonal value, and ColumnOfRow()
+  // does the reverse.
   int RowOfColumn(int column) const {
     return column < dual_width ? column : own_row + column - dual_width;
   }
   int ColumnOfRow(int row) const { return row < own_row ? row : row - own_row + dual_width; }
 };
 
-// Part of the matrix and its place in a panel.
+// A part of the matrix and its place in a panel.
 struct PanelPiece {
   std::size_t value = 0;
   int stride = 0;
@@ -63,26 +70,30 @@ struct PanelPiece {
   int columns = 0;
   int panel_row = 0;
   int panel_column = 0;
-  // Stored as its transpose: `rows` and `columns` are those of the panel.
+  // Whether the panel takes the transpose of the values. `rows` and `columns` are those of the
+  // panel.
   bool transposed = false;
 };
 
-// Fronts [first, last) that need nothing of others: they can be done beside those of other tasks.
+// The fronts [first, last), which need no result of other tasks, so that different tasks can be
+// computed at the same time.
 struct FrontTask {
   int first = 0;
   int last = 0;
 };
 
+// The layout of a whole factor.
 struct FactorLayout {
   std::vector<FrontLayout> fronts;
   std::vector<PanelPiece> pieces;
-  // By their first front. What is in none of them comes after all.
+  // The tasks, sorted by their first front. Fronts that belong to no task are computed after all
+  // tasks.
   std::vector<FrontTask> tasks;
-  // Position of each vertex's first row in the order of elimination.
+  // The position of the first row of each vertex in the order of elimination.
   std::vector<int> positions;
   int num_rows = 0;
-  // Doubles of all panels, of the updates that outlive their task, and of the largest stack of the
-  // others.
+  // The number of doubles of all panels, of the updates that outlive their task, and of the largest
+  // stack of the other updates.
   std::size_t panel_size = 0;
   std::size_t kept_size = 0;
   std::size_t stack_size = 0;
@@ -90,6 +101,8 @@ struct FactorLayout {
   double operations = 0.0;
 };
 
+// Returns the layout of the factor whose `fronts` eliminate `vertices`, for a matrix with these
+// `pieces`.
 FactorLayout LayOutFactor(const BlockVertices& vertices,
                           const std::vector<BlockPiece>& pieces,
                           const std::vector<Front>& fronts);

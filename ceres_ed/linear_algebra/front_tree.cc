@@ -8,8 +8,8 @@
 namespace ceres_ed {
 namespace {
 
-// What a front costs beyond its arithmetic, in multiplications: setting it up, and moving each
-// value of its update to its parent.
+// The cost of a front beyond its arithmetic, in multiplications: setting up the front, and adding
+// each value of its update to the parent.
 constexpr double kFrontOverhead = 2e4;
 constexpr double kUpdateOverhead = 4.0;
 
@@ -19,7 +19,8 @@ std::vector<int> PositionsOf(const std::vector<int>& order) {
   return positions;
 }
 
-// Builds fronts bottom-up: one a vertex, merged with those below it where that pays.
+// Builds the fronts bottom-up. Each vertex starts as a front, and is merged with fronts below it
+// where that saves time.
 class FrontBuilder {
  public:
   FrontBuilder(const RowGraph& graph, const std::vector<int>& order, int num_trailing)
@@ -42,7 +43,8 @@ class FrontBuilder {
   const int num_trailing_;
   std::vector<Front> fronts_;
   std::vector<std::vector<int>> children_;
-  // Of each position: fronts whose first row below is the vertex there.
+  // For each position in the order: the fronts whose first row below is the vertex at that
+  // position.
   std::vector<std::vector<int>> waiting_;
   std::vector<int> seen_;
 };
@@ -89,7 +91,8 @@ void FrontBuilder::AddVertex(int vertex) {
   Attach(std::move(front), children);
 }
 
-// All trailing vertices, whether they are joined or not: the factor ends in a dense triangle.
+// Adds one front for all trailing vertices, whether they are neighbours or not, so that the factor
+// ends with a dense triangle.
 void FrontBuilder::AddTrailing() {
   const int begin = graph_.num_vertices() - num_trailing_;
   Front front;
@@ -108,7 +111,7 @@ double Cost(int width, int height) {
   return kFrontOverhead + FrontOperations(width, height) + kUpdateOverhead * left * left;
 }
 
-// Adds a front above `children`, joined with those of them where one front costs less than two.
+// Adds a front above `children`. A child is merged into it if one front costs less than the two.
 void FrontBuilder::Attach(Front front, const std::vector<int>& children) {
   std::vector<int> columns;
   std::vector<int> kept;
@@ -135,7 +138,8 @@ void FrontBuilder::Attach(Front front, const std::vector<int>& children) {
   children_.push_back(std::move(kept));
 }
 
-// The fronts that were not merged into others, each subtree in one piece.
+// Returns the fronts that were not merged into others, in postorder, so that each subtree is
+// contiguous.
 std::vector<Front> FrontBuilder::Postordered() {
   std::vector<char> is_child(fronts_.size(), 0);
   for (const std::vector<int>& children : children_) {
@@ -174,7 +178,7 @@ std::vector<Front> FrontBuilder::Build() {
         front.columns.begin(), front.columns.end(), [&](int v) { return graph_.is_dual[v] != 0; });
     front.dual_width = Height({front.columns.begin(), end_of_dual});
   }
-  // Rows below in the order in which they are eliminated now.
+  // Sorts the rows below in the final order of elimination.
   std::vector<int> place(n);
   int next = 0;
   for (const Front& front : fronts) {

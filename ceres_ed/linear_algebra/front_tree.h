@@ -8,28 +8,33 @@
 
 namespace ceres_ed {
 
-// A dense front: the vertices that it eliminates, and those that they leave an update on.
+// A dense frontal matrix: the vertices that it eliminates (`columns`), and the vertices that their
+// elimination changes (`below`).
 struct Front {
-  // The dual ones first.
+  // The dual vertices come first.
   std::vector<int> columns;
   // In the order of elimination.
   std::vector<int> below;
-  // Scalar rows of the dual columns, of all columns, and of columns and rows below.
+  // The number of scalar rows of the dual columns, of all columns, and of the columns together with
+  // the rows below them.
   int dual_width = 0;
   int width = 0;
   int height = 0;
-  // A later front that eliminates the first of `below`; -1 where there is none.
+  // The index of the later front that eliminates the first vertex of `below`, or -1 if there is
+  // none.
   int parent = -1;
 };
 
-// The fronts that eliminate `graph` in `order`, up to an equivalent order: children come ahead of
-// their parents, each subtree without a gap. Vertices share a front where that takes less time than
-// two. The last `num_trailing` vertices of `order` share one front, as they stand there.
+// Returns the fronts that eliminate `graph` in `order`, or in an equivalent order. Children come
+// before their parents, and each subtree is contiguous. Fronts are merged where one front takes
+// less time than two. The last `num_trailing` vertices of `order` share one front and keep their
+// order.
 std::vector<Front> BuildFronts(const RowGraph& graph,
                                const std::vector<int>& order,
                                int num_trailing);
 
-// Multiplications and additions that a front takes.
+// Returns the number of multiplications (each with an addition) that the elimination of a front
+// takes, w^3 / 6 + w^2 u / 2 + w u^2 / 2 with w = width and u = height - width.
 double FrontOperations(int width, int height);
 
 }  // namespace ceres_ed

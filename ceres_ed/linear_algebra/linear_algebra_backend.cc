@@ -17,26 +17,29 @@ extern "C" char* openblas_get_config();
 namespace ceres_ed {
 namespace {
 
-// A function of a library that may or may not be loaded; null where it is not. Asking at run time
-// keeps OpenMP and OpenBLAS optional.
+// Returns a function of a library that may or may not be loaded, or null if it is not. Searching at
+// run time keeps OpenMP and OpenBLAS optional.
 template <typename Function>
 Function* FindLoaded(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
 #ifdef CERES_ED_HAVE_OPENBLAS
-// A linker with --as-needed drops a library that nothing refers to, and ATLAS would serve CHOLMOD.
+// A linker with --as-needed would drop a library to which nothing refers, and CHOLMOD would then
+// use ATLAS.
 [[gnu::used]] char* (*const kKeepOpenBlasLinked)() = &openblas_get_config;
 #endif
 
-// Path of the shared object that holds `address`; empty when none does.
+// Returns the path of the shared object that contains `address`, or an empty string if there is
+// none.
 std::string FileOf(const void* address) {
   Dl_info info;
   if (address == nullptr || dladdr(address, &info) == 0 || info.dli_fname == nullptr) return "";
   return info.dli_fname;
 }
 
-// Global look-up order is the one that bound CHOLMOD's dgemm_, so both find the same function.
+// dlsym() searches in the same global order in which dgemm_ was bound for CHOLMOD, so both find the
+// same function.
 std::string BlasFile() { return FileOf(dlsym(RTLD_DEFAULT, "dgemm_")); }
 
 std::string DescribeBlas() {
@@ -47,25 +50,26 @@ std::string DescribeBlas() {
   return file.substr(file.find_last_of('/') + 1);
 }
 
-// Debian's alternatives give every BLAS the same name: what it is shows at the end of the links.
+// Debian's alternatives system gives every BLAS the same name; the end of the chain of links shows
+// which BLAS it is.
 std::string FollowLinks(const std::string& file) {
   char path[PATH_MAX];
   return realpath(file.c_str(), path) != nullptr ? path : file;
 }
 
-// "ATLAS" or "the reference BLAS", empty for any other.
+// Returns "ATLAS" or "the reference BLAS", or an empty string for any other BLAS.
 std::string SlowBlas(const LinearAlgebraBackend& backend) {
   const std::string& file = backend.blas_file;
   const auto has = [&file](const char* part) { return file.find(part) != std::string::npos; };
   if (has("atlas") || has("f77blas")) return "ATLAS";
-  // OpenBLAS that goes by this name, too, gives itself away by its configuration.
+  // OpenBLAS can also have this file name; its configuration string identifies it.
   const bool is_openblas = has("openblas") || backend.blas.rfind("OpenBLAS", 0) == 0;
   const bool is_other = has("/blis") || has("mkl");
   return has("/libblas.so") && !is_openblas && !is_other ? "the reference BLAS" : "";
 }
 
 // The thread count of OpenBLAS belongs to the process, so the guards of all threads share one
-// count.
+// counter.
 class OpenBlasThreads {
  public:
   static OpenBlasThreads& Get() {
@@ -145,8 +149,9 @@ ceres::SparseLinearAlgebraLibraryType PreferredSparseLibrary() {
 
 ScopedSerialLinearAlgebra::ScopedSerialLinearAlgebra() {
   OpenBlasThreads::Get().EnterSerial();
-  // CHOLMOD asks for a fixed number of threads in the pragma itself, which omp_set_num_threads
-  // cannot undo; with no active level allowed every parallel region runs on its caller.
+  // CHOLMOD requests a fixed number of threads in the pragma itself, which omp_set_num_threads()
+  // does not override. If no active level is allowed, every parallel region runs on the calling
+  // thread.
   const auto get = FindLoaded<int()>("omp_get_max_active_levels");
   const auto set = FindLoaded<void(int)>("omp_set_max_active_levels");
   if (get == nullptr || set == nullptr) return;

@@ -1,4 +1,4 @@
-// The linear algebra that Ceres finds at run time, and how to keep it on one thread.
+// Describes the linear algebra that Ceres finds at run time, and keeps it on one thread.
 #ifndef CERES_ED_LINEAR_ALGEBRA_LINEAR_ALGEBRA_BACKEND_H_
 #define CERES_ED_LINEAR_ALGEBRA_LINEAR_ALGEBRA_BACKEND_H_
 
@@ -9,47 +9,50 @@
 
 namespace ceres_ed {
 
-// What the running process solves with; for reports and `--version`.
+// The libraries that the running process solves with, for reports and `--version`.
 struct LinearAlgebraBackend {
-  // "2.1.0"
+  // The version of Ceres, for example "2.1.0".
   std::string ceres_version;
   // "SuiteSparse", "EigenSparse" or "none".
   std::string sparse_library;
-  // The configuration string of OpenBLAS where it serves dgemm_, else the file that does
-  // ("libf77blas.so.3"), else "none".
+  // The configuration string of OpenBLAS if OpenBLAS provides dgemm_, else the name of the file
+  // that provides it ("libf77blas.so.3"), else "none".
   std::string blas;
-  // That file with all links followed, empty where there is none.
+  // The path of that file after all links have been followed; empty if there is none.
   std::string blas_file;
-  // What orders the matrices of the block solver (elimination_order.h): "CHOLMOD" or "Eigen".
+  // The library that orders the matrices of the block solver (elimination_order.h): "CHOLMOD" or
+  // "Eigen".
   std::string ordering_library;
-  // Vector instructions of the block solver's factorisation (front_kernels.h).
+  // The vector instructions that the block solver's factorisation uses (front_kernels.h).
   std::string kernels;
 };
 
-// What a program asks of Ceres' libraries; the block solver brings all that it needs.
+// What a program needs from the libraries of Ceres. The block solver needs nothing from them.
 struct BackendUse {
-  // SPARSE_NORMAL_CHOLESKY.
+  // Whether the program solves with SPARSE_NORMAL_CHOLESKY of Ceres.
   bool ceres = false;
 };
 
-// Returns a sentence on each thing that makes `use` slow, and what to do about it: no SuiteSparse,
-// or ATLAS or the reference BLAS behind it.
+// Returns one sentence for each property of `backend` that makes `use` slow, with advice: Ceres has
+// no SuiteSparse, or SuiteSparse uses ATLAS or the reference BLAS.
 std::vector<std::string> BackendWarnings(const LinearAlgebraBackend& backend,
                                          const BackendUse& use);
 
-// Returns the backend of this process, asked of the loaded libraries and not of the build.
+// Returns the backend of this process. It examines the libraries that are loaded, not the options
+// of the build.
 LinearAlgebraBackend DescribeBackend();
 
-// Returns SUITE_SPARSE where Ceres was built with it, else EIGEN_SPARSE, else NO_SPARSE.
+// Returns SUITE_SPARSE if Ceres was built with it, else EIGEN_SPARSE, else NO_SPARSE.
 ceres::SparseLinearAlgebraLibraryType PreferredSparseLibrary();
 
-// Keeps CHOLMOD's OpenMP loops of the calling thread, and OpenBLAS, on one thread while it lives.
-// Debian's CHOLMOD starts four OpenMP threads a supernode whatever the machine has, and on few
-// cores they cost more than the factorisation itself. Ceres' own threads are not touched.
+// While an object of this class exists, OpenBLAS and the OpenMP loops of CHOLMOD in the calling
+// thread run on one thread. Debian's CHOLMOD starts four OpenMP threads for each supernode on any
+// machine, and on few cores these threads cost more time than the factorisation itself. The threads
+// of Ceres itself are not changed.
 //
-// Guards may nest and may live in several threads at once: the last one to go restores OpenBLAS.
-// Destroy a guard in the thread that made it. Where OpenMP or OpenBLAS is not loaded there is
-// nothing to do and nothing happens.
+// Guards may be nested and may exist in several threads at once; the last guard to be destroyed
+// restores OpenBLAS. Destroy a guard in the thread that created it. If OpenMP or OpenBLAS is not
+// loaded, the guard does nothing.
 class ScopedSerialLinearAlgebra {
  public:
   ScopedSerialLinearAlgebra();

@@ -10,10 +10,10 @@
 namespace ceres_ed {
 namespace {
 
-// Updates of fewer multiplications are not worth a second thread.
+// Updates with fewer multiplications than this are not worth a second thread.
 constexpr double kParallelUpdate = 4e6;
 
-// Adds rows [begin, ...) of a column of a child's update to a column of its parent.
+// Adds the rows [begin, ...) of a column of a child's update to a column of the parent.
 void AddRuns(const std::vector<RowRun>& runs, int begin, const double* from, double* to) {
   for (const RowRun& run : runs) {
     const int skipped = std::max(0, begin - run.from);
@@ -31,6 +31,7 @@ MultifrontalFactor::MultifrontalFactor(FactorLayout layout, FactorMemory* memory
   memory_->panels.Require(layout_.panel_size);
 }
 
+// Copies the values of the matrix into the panel of a front and adds `diagonal`.
 void MultifrontalFactor::TakePieces(const FrontLayout& front,
                                     const double* values,
                                     const Eigen::VectorXd& diagonal) {
@@ -54,7 +55,7 @@ void MultifrontalFactor::TakePieces(const FrontLayout& front,
   }
 }
 
-// What a child's update has for the columns of its parent.
+// Adds the part of a child's update that belongs to the parent's own columns.
 void MultifrontalFactor::TakeColumns(const FrontLayout& front, const FrontLayout& child) {
   for (const RowRun& columns : child.to_columns) {
     for (int c = 0; c < columns.length; ++c) {
@@ -69,7 +70,7 @@ void MultifrontalFactor::TakeColumns(const FrontLayout& front, const FrontLayout
   }
 }
 
-// What it has for the parent's own update.
+// Adds the part of a child's update that belongs to the parent's own update.
 void MultifrontalFactor::TakeUpdate(const FrontLayout& front, const FrontLayout& child) {
   for (const RowRun& columns : child.to_update) {
     for (int c = 0; c < columns.length; ++c) {
@@ -82,6 +83,7 @@ void MultifrontalFactor::TakeUpdate(const FrontLayout& front, const FrontLayout&
   }
 }
 
+// Computes the update -L21 L21^T of a front; dual columns contribute with the opposite sign.
 void MultifrontalFactor::MakeUpdate(const FrontLayout& front, int num_threads) {
   OuterProduct primal;
   primal.width = front.width - front.dual_width;
@@ -104,7 +106,7 @@ void MultifrontalFactor::MakeUpdate(const FrontLayout& front, int num_threads) {
     make(0, rows);
     return;
   }
-  // Short strips, for columns get shorter from left to right.
+  // The strips are short because columns become shorter from left to right.
   const int num_strips = rows / kRowUnit;
   std::atomic<int> next{0};
   ParallelFor(num_threads, num_threads, [&](int, int) {
@@ -115,8 +117,9 @@ void MultifrontalFactor::MakeUpdate(const FrontLayout& front, int num_threads) {
   });
 }
 
-// L S L^T with S = -1 for dual columns: with the sign of these changed they are factorised like
-// others, but what they take from the rest is added to it.
+// Factorises L S L^T with S = -1 for dual columns. Their sign is changed, so that they can be
+// factorised like the other columns; their contribution to the rest is then added and not
+// subtracted.
 bool MultifrontalFactor::FactorizeOwnColumns(const FrontLayout& front) {
   double* panel = Panel(front);
   if (front.dual_width > 0) {
@@ -142,6 +145,8 @@ bool MultifrontalFactor::FactorizeOwnColumns(const FrontLayout& front) {
                         PrimalPanel(front));
 }
 
+// Assembles a front from the matrix and from its children, eliminates its own columns and computes
+// the update for its parent.
 bool MultifrontalFactor::FactorizeFront(int f,
                                         const double* values,
                                         const Eigen::VectorXd& diagonal,

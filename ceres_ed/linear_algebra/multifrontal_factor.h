@@ -12,28 +12,28 @@
 
 namespace ceres_ed {
 
-// L S L^T of a matrix that a FactorLayout describes, S = -1 for dual rows and 1 for the others. All
-// vectors have their rows in the order of elimination.
+// The factor L S L^T of a matrix that a FactorLayout describes, where S is -1 for dual rows and 1
+// for the others. All vectors have their rows in the order of elimination.
 class MultifrontalFactor {
  public:
-  // `memory` outlives this and serves no other factor meanwhile.
+  // `memory` must outlive this object and must not serve another factor at the same time.
   MultifrontalFactor(FactorLayout layout, FactorMemory* memory);
 
   const FactorLayout& layout() const { return layout_; }
 
-  // Of the matrix of `values` with `diagonal` added. False when it isn't quasi-definite. The same
-  // bits at any number of threads.
+  // Factorises the matrix with these `values` and `diagonal` added. Returns false if it is not
+  // quasi-definite. The result has the same bits at any number of threads.
   bool Factorize(const double* values, const Eigen::VectorXd& diagonal, int num_threads);
 
-  // L^-1, S and L^-T.
+  // Replace `ordered` by L^-1 ordered, S ordered and L^-T ordered.
   void SolveForward(Eigen::VectorXd* ordered);
   void ChangeSignOfDualRows(Eigen::VectorXd* ordered) const;
   void SolveBackward(Eigen::VectorXd* ordered);
 
-  // The last front's own rows and columns of L; zeros above the diagonal.
+  // Returns the last front's own rows and columns of L, with zeros above the diagonal.
   Eigen::MatrixXd LastTriangle() const;
 
-  // L11 (of which the lower triangle counts) and L21 of a front without dual columns.
+  // Return L11 (of which only the lower triangle is valid) and L21 of a front without dual columns.
   using PanelView = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
   PanelView OwnColumns(const FrontLayout& front) const {
     return {Panel(front), front.width, front.width, Eigen::OuterStride<>(front.panel_stride)};
@@ -57,7 +57,7 @@ class MultifrontalFactor {
   void MakeUpdate(const FrontLayout& front, int num_threads);
 
   double* Panel(const FrontLayout& front) const { return memory_->panels.data() + front.panel; }
-  // Of the columns that aren't dual, from their first row on.
+  // Returns the panel of the columns that are not dual, from their first own row on.
   double* PrimalPanel(const FrontLayout& front) const {
     return Panel(front) + static_cast<std::ptrdiff_t>(front.dual_width) * front.panel_stride +
            front.own_row;
@@ -71,11 +71,11 @@ class MultifrontalFactor {
   void PutOwnRows(const FrontLayout& front, Eigen::VectorXd* ordered) const;
 
   const FactorLayout layout_;
-  // Panels, and updates: those that outlive their task, then a stack of each thread.
+  // The panels, and the updates: first those that outlive their task, then one stack per thread.
   FactorMemory* memory_;
-  // Of each front: where its update is.
+  // The address of the update of each front.
   std::vector<double*> update_places_;
-  // Rows of a front's panel, while it is solved for.
+  // The rows of a front's panel while it is being solved.
   Eigen::VectorXd panel_rows_;
 };
 

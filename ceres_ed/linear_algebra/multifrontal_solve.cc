@@ -1,4 +1,4 @@
-// Solving with a factor, front by front.
+// Solves linear systems with a multifrontal factor, front by front.
 #include <ceres_ed/linear_algebra/front_kernels.h>
 #include <ceres_ed/linear_algebra/multifrontal_factor.h>
 
@@ -7,7 +7,8 @@
 namespace ceres_ed {
 namespace {
 
-// Solves L11 x = x for the first `width` of `num_rows` rows, and takes L21 x from the rest.
+// Solves L11 x = x for the first `width` of `num_rows` rows, and subtracts L21 x from the rows
+// below.
 void SolvePanel(int width, int num_rows, int stride, const double* panel, double* x) {
   for (int c = 0; c < width; ++c) {
     const double* column = panel + static_cast<std::ptrdiff_t>(c) * stride;
@@ -18,7 +19,7 @@ void SolvePanel(int width, int num_rows, int stride, const double* panel, double
   SubtractProduct(width, num_rows - below, panel + below, stride, x, x + below);
 }
 
-// Solves L11^T x = x - L21^T (rest) for them.
+// Solves L11^T x = x - L21^T x_below for the first `width` rows, where x_below are the rows below.
 void SolveTransposedPanel(int width, int num_rows, int stride, const double* panel, double* x) {
   const int below = RoundUpRows(width);
   SubtractTransposedProduct(width, num_rows - below, panel + below, stride, x + below, x);
@@ -32,7 +33,7 @@ void SolveTransposedPanel(int width, int num_rows, int stride, const double* pan
 
 }  // namespace
 
-// `rows` has the rows of the panel.
+// Copies a front's own rows from `ordered` to the rows of its panel.
 void MultifrontalFactor::TakeOwnRows(const FrontLayout& front, const Eigen::VectorXd& ordered) {
   const double* own = ordered.data() + front.first_position;
   panel_rows_.head(front.below_row).setZero();

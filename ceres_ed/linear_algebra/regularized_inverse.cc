@@ -9,12 +9,13 @@
 namespace ceres_ed {
 namespace {
 
-// Relative to the diagonal.
+// The regularisation e, relative to the diagonal, and the factor of the stronger one.
 constexpr double kRegularization = 1e-10;
 constexpr double kStrongerBy = 10.0;
-// Share of a variance that goes with the stronger regularisation.
+// The share of a variance that is lost under the stronger regularisation, above which a block is
+// undetermined.
 constexpr double kUndeterminedLoss = 0.1;
-// Of the diagonal, relative to its mean.
+// The lower bound of the diagonal, relative to its mean.
 constexpr double kMinRelativeDiagonal = 1e-9;
 
 Eigen::VectorXd Scales(const BlockStructure& structure, const std::vector<double>& values) {
@@ -23,8 +24,9 @@ Eigen::VectorXd Scales(const BlockStructure& structure, const std::vector<double
   return diagonal.cwiseMax(mean > 0.0 ? kMinRelativeDiagonal * mean : 1.0);
 }
 
-// The largest share of its variance that a direction loses from `weak` to `strong`: of
-// (weak - strong) x = share * weak x. `scales` makes the units of the parameters the same.
+// Returns the largest share of its variance that a direction loses from `weak` to `strong`: the
+// largest eigenvalue of (weak - strong) x = share * weak x. `scales` gives all parameters the same
+// units.
 double LargestLoss(const Eigen::MatrixXd& weak,
                    const Eigen::MatrixXd& strong,
                    const Eigen::VectorXd& scales) {
@@ -68,7 +70,8 @@ bool RegularizedInverse::Invert(const std::vector<double>& values, int num_threa
     const Eigen::VectorXd of_block = scales.segment(structure_.row_offset(i), structure_.size(i));
     is_determined_.push_back(LargestLoss(weak, strong, of_block) < kUndeterminedLoss ? 1 : 0);
   }
-  // (1 + a) Z(e) - a Z(10 e), a = 1 / 9, up to a factor that Propagate() knows.
+  // Forms (1 + a) Z(e) - a Z(10 e) with a = 1 / 9, up to the factor 10 / 9 that PropagateSelected()
+  // applies.
   inverse_->AddScaled(-1.0 / kStrongerBy, stronger);
   return true;
 }

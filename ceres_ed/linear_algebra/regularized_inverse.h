@@ -1,4 +1,4 @@
-// The inverse of a matrix that need not have one.
+// The inverse of a positive semi-definite matrix, which may be singular.
 #ifndef CERES_ED_LINEAR_ALGEBRA_REGULARIZED_INVERSE_H_
 #define CERES_ED_LINEAR_ALGEBRA_REGULARIZED_INVERSE_H_
 
@@ -14,40 +14,44 @@
 
 namespace ceres_ed {
 
-// How something depends on a block: rows x size(block).
+// The derivative of a quantity with respect to a block, of rows x size(block).
 struct BlockDerivative {
   int block = -1;
   Eigen::MatrixXd jacobian;
 };
 
-// H^-1 of a positive semi-definite H, and which blocks have one.
+// H^-1 of a positive semi-definite H, and which of its blocks have an inverse.
 //
-// With D the diagonal of H, floored where nothing curves a parameter, Z(e) = (H + e D)^-1 is there
-// whatever the rank of H. A direction of curvature c (relative to D) has the variance 1 / (c + e)
-// in it. Z at e and at 10 e tells the two kinds apart, block by block and at any number of them:
-//   c >> e: both are the same; Z(e) + (Z(e) - Z(10 e)) / 9 is H^-1 but for terms of (e / c)^2.
-//   c << e: the variance is the regulariser's, and Z(10 e) is a tenth of it.
-// A block is undetermined where a direction of it loses more than a tenth of its variance from e to
-// 10 e, that is, where c < 80 e. e = 1e-10: far below the curvatures of a problem that one would
-// want to solve, far above rounding.
+// Let D be the diagonal of H, with a lower bound for parameters without curvature. Then the matrix
+// Z(e) = (H + e D)^-1 exists whatever the rank of H. A direction with curvature c (relative to D)
+// has the variance 1 / (c + e) in Z(e). A comparison of Z(e) with Z(10 e) distinguishes two cases,
+// for each block:
+//   c >> e: both are equal, and Z(e) + (Z(e) - Z(10 e)) / 9 is H^-1 up to terms of order (e / c)^2.
+//   c << e: the regulariser determines the variance, and Z(10 e) is a tenth of Z(e).
+// A block is undetermined if one of its directions loses more than a tenth of its variance from e
+// to 10 e, which is the case if c < 80 e. The value e = 1e-10 is far below the curvatures of any
+// problem that can sensibly be solved, and far above rounding errors.
 class RegularizedInverse {
  public:
-  // `values` of H in the layout of `structure`, which has no dual blocks. Null where H isn't
-  // positive semi-definite or isn't finite.
+  // Returns the inverse of the H with these `values` in the layout of `structure`, which has no
+  // dual blocks. Returns null if H is not positive semi-definite or not finite.
   static std::unique_ptr<RegularizedInverse> Create(BlockStructure structure,
                                                     const std::vector<double>& values,
                                                     int num_threads);
 
   const BlockStructure& structure() const { return structure_; }
 
+  // Returns whether the inverse of H exists on this block.
   bool is_determined(int block) const { return is_determined_[block] != 0; }
 
-  // sum_ab J_a Z_ab J_b^T over the blocks that are named, each once. Blocks that share no entry of
-  // the factor cost a few solves. A term of an undetermined block is as large as the regulariser
-  // leaves it, unless its Jacobian vanishes in that direction. From several threads at once, too.
+  // Returns the covariance sum_ab J_a Z_ab J_b^T over the blocks in `parts`, each of which is named
+  // once. Pairs of blocks that share no entry of the factor cost a few solves. The contribution of
+  // an undetermined block is as large as the regulariser permits, unless its Jacobian is zero in
+  // that direction. May be called from several threads at once.
   Eigen::MatrixXd Propagate(const std::vector<BlockDerivative>& parts) const;
 
-  // The same; false, at once, where parts of Z are missing, which count as zero.
+  // Computes the same without solves. If parts of Z are missing, they count as zero, and it returns
+  // false.
   bool PropagateSelected(const std::vector<BlockDerivative>& parts, Eigen::MatrixXd* result) const;
 
  private:
@@ -58,10 +62,10 @@ class RegularizedInverse {
   Eigen::MatrixXd Solve(const std::vector<BlockDerivative>& parts) const;
 
   const BlockStructure structure_;
-  // Of H + e D and H + 10 e D.
+  // The factors of H + e D and of H + 10 e D.
   mutable BlockCholesky weak_;
   mutable BlockCholesky strong_;
-  // Guards them.
+  // Guards the two factors.
   mutable std::mutex mutex_;
   std::optional<SelectedInverse> inverse_;
   std::vector<char> is_determined_;

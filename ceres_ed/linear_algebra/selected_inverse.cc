@@ -7,7 +7,8 @@
 namespace ceres_ed {
 namespace {
 
-// Of the rows of a front's update: which row of its parent's front each is, own columns first.
+// Returns, for each row of a child's update, the row of the parent's front, whose own columns come
+// first.
 std::vector<int> RowsInParent(const FrontLayout& child, const FrontLayout& parent) {
   std::vector<int> rows(child.update_rows);
   for (const RowRun& run : child.to_columns) {
@@ -19,7 +20,7 @@ std::vector<int> RowsInParent(const FrontLayout& child, const FrontLayout& paren
   return rows;
 }
 
-// All of Z on the rows of a front, own columns first. `Z_UU` is that below them.
+// Returns Z on all rows of a front, own columns first. `Z_UU` is Z on the rows below them.
 Eigen::MatrixXd InvertFront(const MultifrontalFactor& factor,
                             const FrontLayout& front,
                             const Eigen::MatrixXd& Z_UU) {
@@ -69,7 +70,8 @@ SelectedInverse::SelectedInverse(const BlockStructure& structure,
     size += static_cast<std::size_t>(front.width + front.update_rows) * front.width;
   }
   values_.resize(size);
-  // Children stand ahead of their parents, and the first child of a front is the last to ask it.
+  // Children come before their parents. The loop therefore visits a front before its children, and
+  // visits its first child last, after which the full matrix of the front is no longer needed.
   std::vector<Eigen::MatrixXd> full(num_fronts);
   for (int f = num_fronts - 1; f >= 0; --f) {
     const FrontLayout& front = layout_.fronts[f];

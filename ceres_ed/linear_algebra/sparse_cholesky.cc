@@ -10,7 +10,8 @@
 namespace ceres_ed {
 namespace {
 
-// Blocks of one row: their values lie as those of the compressed lower triangle do.
+// Returns a structure with blocks of one row; their values have the same order as those of the
+// compressed lower triangle.
 BlockStructure StructureOf(const SparseCholesky::Matrix& lower) {
   CHECK(lower.isCompressed());
   const int n = static_cast<int>(lower.cols());
@@ -35,7 +36,7 @@ struct SparseCholesky::Impl {
 
   const BlockStructure structure;
   BlockCholesky factor;
-  // Added to the diagonal.
+  // Nothing (zeros) is added to the diagonal.
   const Eigen::VectorXd no_more;
 };
 

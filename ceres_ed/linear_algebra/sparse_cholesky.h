@@ -1,4 +1,4 @@
-// Sparse Cholesky of a scalar matrix, for several right sides at once.
+// Sparse Cholesky factorisation of a scalar matrix, for several right sides at once.
 #ifndef CERES_ED_LINEAR_ALGEBRA_SPARSE_CHOLESKY_H_
 #define CERES_ED_LINEAR_ALGEBRA_SPARSE_CHOLESKY_H_
 
@@ -9,23 +9,25 @@
 
 namespace ceres_ed {
 
-// Factorises a symmetric matrix A = L L^T as BlockCholesky does. One object serves one thread at a
-// time.
+// The Cholesky factorisation A = L L^T of a symmetric positive definite matrix, computed by
+// BlockCholesky. One object serves one thread at a time.
 class SparseCholesky {
  public:
-  // The lower triangle of A, column by column: compressed, each column by row from its diagonal on.
+  // The lower triangle of A, compressed and column by column. Each column is sorted by row and
+  // starts at its diagonal.
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-  // Analyses the pattern of `lower`; the values don't matter yet.
+  // Analyses the pattern of `lower`; its values are not used.
   explicit SparseCholesky(const Matrix& lower);
   ~SparseCholesky();
   SparseCholesky(const SparseCholesky&) = delete;
   SparseCholesky& operator=(const SparseCholesky&) = delete;
 
-  // False when A isn't positive definite. `lower` has the pattern that was analysed.
+  // Factorises `lower`, which must have the pattern that was analysed. Returns false if A is not
+  // positive definite.
   bool Factorize(const Matrix& lower);
 
-  // The solution for every column of `rhs`, with the last successful factor.
+  // Returns the solution for every column of `rhs`, with the last successful factor.
   Eigen::MatrixXd Solve(const Eigen::MatrixXd& rhs);
 
  private:

@@ -30,13 +30,13 @@ TEST(BlockCholesky, SolvesWhatDenseCholeskySolves) {
   ASSERT_TRUE(cholesky.Factorize(values.data(), diagonal));
   const Eigen::VectorXd expected = dense.llt().solve(rhs);
   EXPECT_LT((cholesky.Solve(rhs) - expected).norm(), 1e-12 * expected.norm());
-  // A factor that fails leaves an object that still works.
+  // A failed factorisation leaves an object that can still be used.
   EXPECT_FALSE(cholesky.Factorize(values.data(), -diagonal));
   ASSERT_TRUE(cholesky.Factorize(values.data(), diagonal));
   EXPECT_LT((cholesky.Solve(rhs) - expected).norm(), 1e-12 * expected.norm());
 }
 
-// The factor of a matrix that is permuted all but for its end.
+// Checks the factor of a matrix whose rows are permuted except at the end.
 TEST(BlockCholesky, EndsInTheFactorOfTheSchurComplementOfTheTrailingBlocks) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -68,9 +68,9 @@ TEST(BlockCholesky, EndsInTheFactorOfTheSchurComplementOfTheTrailingBlocks) {
   }
 }
 
-// Nodes on a grid of `columns` x `rows`, each joined to its 8 neighbours, and a camera that the
-// first column's nodes see. `share_points(a, b)` says whether the affine parts of two nodes are
-// coupled.
+// Returns the structure of nodes on a grid of `columns` x `rows`, each joined to its 8 neighbours,
+// and a camera that the nodes of the first column see. `share_points(a, b)` says whether the affine
+// parts of two nodes are coupled.
 template <typename SharePoints>
 BlockStructure Sheet(int columns, int rows, const SharePoints& share_points) {
   std::vector<BlockPair> pairs;
@@ -93,7 +93,8 @@ BlockStructure Sheet(int columns, int rows, const SharePoints& share_points) {
 }
 
 TEST(BlockCholesky, EliminatesLoneHeadsFirst) {
-  // The left half shares points: nodes of both kinds, and a seam between.
+  // The nodes of the left half share points, so that there are nodes of both kinds and a border
+  // between them.
   const auto left = [](int a, int b) { return a < 42 && b < 42; };
   const BlockStructure mixed = Sheet(12, 7, left);
   const BlockStructure whole = Sheet(12, 7, [](int, int) { return true; });
@@ -113,7 +114,8 @@ TEST(BlockCholesky, EliminatesLoneHeadsFirst) {
   EXPECT_LT(BlockCholesky(edges).NumOperations(), 0.3 * BlockCholesky(points).NumOperations());
 }
 
-// Nodes that share points, once by products of their Jacobians and once by a dual block a point:
+// Nodes that share points are coupled in two ways: once by products of their Jacobians, and once by
+// a dual block per point:
 //   [H J^T; J -I] [x; y] = [b; 0]  <=>  (H + J^T J) x = b
 TEST(BlockCholesky, EliminatesDualBlocks) {
   for (const bool many : {false, true}) {
@@ -134,7 +136,7 @@ TEST(BlockCholesky, EliminatesDualBlocks) {
       }
     }
     const BlockStructure structure(sizes, pairs, num_points);
-    // The primal part with values of its own; random Jacobians; -1 on the dual diagonal.
+    // The primal part has values of its own; the Jacobians are random; the dual diagonal is -1.
     std::mt19937 random(6);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     std::vector<double> all(structure.num_values(), 0.0);
@@ -173,9 +175,9 @@ TEST(BlockCholesky, EliminatesDualBlocks) {
   }
 }
 
-// A chain that nothing but one dual unknown, joined to all of it, holds where it is. By degree
-// alone the dual would come last, and the last row of the chain would be divided by next to
-// nothing.
+// A chain whose position is fixed only by one dual unknown, which is joined to all of it. By degree
+// alone the dual would come last, and the last row of the chain would be divided by a number close
+// to zero.
 TEST(BlockCholesky, HoldsWhatIsFreeUntilTheDualsHaveHadTheirSay) {
   constexpr int kLength = 20;
   std::vector<BlockPair> pairs;
@@ -204,7 +206,8 @@ TEST(BlockCholesky, HoldsWhatIsFreeUntilTheDualsHaveHadTheirSay) {
   EXPECT_LT((DenseOf(structure, values) * solution - rhs).norm(), 1e-12 * rhs.norm());
 }
 
-// Large enough for several tasks, for updates on several threads and for both orderings.
+// The matrix is large enough for several tasks, for updates on several threads and for both
+// orderings.
 TEST(BlockCholesky, GivesTheSameBitsOnAnyNumberOfThreads) {
   const BlockStructure structure = Sheet(60, 30, [](int, int) { return true; });
   const std::vector<double> values = RandomValues(structure, 5);
@@ -218,7 +221,7 @@ TEST(BlockCholesky, GivesTheSameBitsOnAnyNumberOfThreads) {
     ASSERT_TRUE(parallel.Factorize(values.data(), diagonal, num_threads));
     EXPECT_EQ(parallel.Solve(rhs), expected) << num_threads;
   }
-  // The residual, by the block structure itself.
+  // The residual, computed from the block structure itself.
   Eigen::VectorXd product = diagonal.cwiseProduct(expected);
   for (int j = 0; j < structure.num_blocks(); ++j) {
     for (int e = structure.column_begin(j); e < structure.column_begin(j + 1); ++e) {

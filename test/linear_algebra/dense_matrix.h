@@ -1,4 +1,4 @@
-// Block matrices with random values, and dense ones to compare with.
+// Makes block matrices with random values, and dense matrices to compare them with.
 #ifndef CERES_ED_TEST_LINEAR_ALGEBRA_DENSE_MATRIX_H_
 #define CERES_ED_TEST_LINEAR_ALGEBRA_DENSE_MATRIX_H_
 
@@ -13,7 +13,7 @@
 
 namespace ceres_ed {
 
-// Random values for the blocks; 0 where affine parts are not coupled.
+// Returns random values for the blocks; they are zero where affine parts are not coupled.
 inline std::vector<double> RandomValues(const BlockStructure& structure, unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
@@ -27,7 +27,7 @@ inline std::vector<double> RandomValues(const BlockStructure& structure, unsigne
   return values;
 }
 
-// The lower triangle in blocks as a full symmetric matrix.
+// Returns the lower triangle in blocks as a full symmetric matrix.
 inline Eigen::MatrixXd DenseOf(const BlockStructure& structure, const std::vector<double>& values) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(structure.num_rows(), structure.num_rows());
   for (int j = 0; j < structure.num_blocks(); ++j) {
@@ -42,7 +42,7 @@ inline Eigen::MatrixXd DenseOf(const BlockStructure& structure, const std::vecto
   return dense.selfadjointView<Eigen::Lower>();
 }
 
-// A Jacobian of Ceres as a dense matrix.
+// Returns a Jacobian of Ceres as a dense matrix.
 inline Eigen::MatrixXd DenseOf(const ceres::CRSMatrix& crs) {
   Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(crs.num_rows, crs.num_cols);
   for (int r = 0; r < crs.num_rows; ++r) {

@@ -56,7 +56,8 @@ TEST(EliminationOrder, KeepsBothEndsToThemselves) {
   }
 }
 
-// Two chains, each with a dual vertex that is joined to all of it: by degree these would be last.
+// Two chains, each with a dual vertex that is joined to all of it; by degree these dual vertices
+// would come last.
 TEST(EliminationOrder, HasSomeVerticesOfEachPartBehindItsDuals) {
   std::vector<std::pair<int, int>> edges = ChainEdges(0, 20);
   for (const auto& edge : ChainEdges(20, 20)) edges.push_back(edge);

@@ -11,8 +11,8 @@
 namespace ceres_ed {
 namespace {
 
-// A front of `width` own rows and `update_rows` below, symmetric and positive definite, and its
-// panel as the kernels want it.
+// A symmetric and positive definite front with `width` own rows and `update_rows` rows below, and
+// its panel in the layout that the kernels expect.
 struct TestFront {
   TestFront(int own_rows, int rows_below)
       : width(own_rows),
@@ -74,7 +74,7 @@ TEST(FrontKernels, RefuseWhatIsNotPositiveDefinite) {
   EXPECT_FALSE(FactorizePanel(30, other.rows, other.stride, other.panel.data()));
 }
 
-// All columns at once, and strip by strip: the same bits.
+// All columns at once give the same bits as strip by strip.
 TEST(FrontKernels, MakeUpdatesOfAnyColumns) {
   for (const int width : kWidths) {
     for (const int update_rows : kUpdateRows) {
@@ -103,7 +103,7 @@ TEST(FrontKernels, MakeUpdatesOfAnyColumns) {
       EXPECT_TRUE(Eigen::MatrixXd((update - strips).topRows(padded).triangularView<Eigen::Lower>())
                       .isZero(0.0));
 
-      // Added with the other sign, nothing is left.
+      // Added with the opposite sign, the sum is zero.
       product.sign = 1.0;
       product.accumulate = true;
       AddOuterProduct(product, 0, padded);

@@ -32,13 +32,13 @@ TEST(LinearAlgebraBackend, NamesALibraryThatCeresHas) {
             ceres::IsSparseLinearAlgebraLibraryTypeAvailable(ceres::SUITE_SPARSE));
 }
 
-// Where OpenBLAS was linked it must serve CHOLMOD, whatever else Ceres has loaded.
+// If OpenBLAS was linked, it must serve CHOLMOD, whatever else Ceres has loaded.
 TEST(LinearAlgebraBackend, OpenBlasServesWhereItIsLoaded) {
   if (OpenBlasThreads() < 0) GTEST_SKIP() << "OpenBLAS is not loaded";
   EXPECT_EQ(DescribeBackend().blas.substr(0, 8), "OpenBLAS");
 }
 
-// What Debian's alternatives lead to.
+// The files that Debian's alternatives lead to.
 LinearAlgebraBackend WithBlas(const std::string& blas, const std::string& file) {
   LinearAlgebraBackend backend;
   backend.sparse_library = "SuiteSparse";
@@ -80,7 +80,7 @@ TEST(BackendWarnings, AreSilentWithAFastBlas) {
   }
 }
 
-// No BLAS is asked then, whichever it is.
+// In this case no BLAS is used, whichever is installed.
 TEST(BackendWarnings, NameAMissingSuiteSparse) {
   LinearAlgebraBackend backend = kAtlas;
   backend.sparse_library = "EigenSparse";
@@ -93,7 +93,7 @@ TEST(ScopedSerialLinearAlgebra, HoldsBothOnOneThreadAndRestoresThem) {
   {
     const ScopedSerialLinearAlgebra outer;
     { const ScopedSerialLinearAlgebra inner; }
-    // The end of the inner guard must not end the outer one.
+    // The end of the inner guard must not end the effect of the outer one.
     EXPECT_EQ(OpenMpLevels(), levels < 0 ? -1 : 0);
     EXPECT_EQ(OpenBlasThreads(), threads < 0 ? -1 : 1);
   }

@@ -1,4 +1,4 @@
-// Entries of the inverse against a dense inverse.
+// Compares entries of the selected inverse with a dense inverse.
 #include <ceres_ed/linear_algebra/block_cholesky.h>
 
 #include <algorithm>
@@ -11,8 +11,8 @@
 namespace ceres_ed {
 namespace {
 
-// A sheet of nodes, each joined to those right of it and below, and a camera that some see. In the
-// right half no two affine parts share a residual.
+// A sheet of nodes, each joined to those to its right and below it, and a camera that some of them
+// see. In the right half no two affine parts share a residual.
 BlockStructure Sheet(int columns, int rows) {
   std::vector<BlockPair> pairs;
   const int camera = columns * rows;
@@ -58,7 +58,7 @@ TEST(SelectedInverse, HasTheInverseWhereTheFactorIs) {
         continue;
       }
       ++missing;
-      // Of what is there, each entry is that of the inverse.
+      // Each entry that exists equals that of the inverse.
       for (int r = 0; r < block.rows(); ++r) {
         for (int c = 0; c < block.cols(); ++c) {
           if (block(r, c) != 0.0) {
@@ -66,7 +66,7 @@ TEST(SelectedInverse, HasTheInverseWhereTheFactorIs) {
           }
         }
       }
-      // All but what couples the affine parts of two nodes.
+      // Everything except the part that couples the affine parts of two nodes.
       if (entry >= 0) {
         EXPECT_LT((block.rightCols(3) - expected.rightCols(3)).norm(), tolerance);
         EXPECT_LT((block.bottomRows(3) - expected.bottomRows(3)).norm(), tolerance);

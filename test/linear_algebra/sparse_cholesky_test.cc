@@ -6,7 +6,7 @@
 namespace ceres_ed {
 namespace {
 
-// Tridiagonal with a long row, positive definite.
+// Returns a tridiagonal matrix with one long row, which is positive definite.
 Eigen::MatrixXd MakeMatrix(int size) {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(size, size);
   for (int i = 0; i < size; ++i) {
@@ -28,7 +28,7 @@ TEST(SparseCholesky, SolvesForEveryColumnAsTheDenseFactorDoes) {
   SparseCholesky cholesky(Lower(A));
   ASSERT_TRUE(cholesky.Factorize(Lower(A)));
   EXPECT_LT((cholesky.Solve(rhs) - A.llt().solve(rhs)).norm(), 1e-12);
-  // Other values, and again with another number of columns.
+  // Other values, and another number of columns.
   ASSERT_TRUE(cholesky.Factorize(Lower(2.0 * A)));
   EXPECT_LT((cholesky.Solve(rhs.leftCols(1)) - 0.5 * A.llt().solve(rhs.leftCols(1))).norm(), 1e-12);
 }
