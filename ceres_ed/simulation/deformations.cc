@@ -8,15 +8,15 @@
 namespace ceres_ed {
 namespace {
 
-// Cubic step from 0 to 1 over [0, 1].
+// Returns a cubic step that rises from 0 to 1 over [0, 1].
 double Step(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);
 }
 
-// A bend in the plane of s (along the body) and h (across it, toward the inside of the bend):
-// nothing before `start`, rigid from start + width on, turned by `angle` radians there. Lengths
-// along h = 0 stay.
+// A bend in the plane of s (along the body) and h (across it, toward the inside of the bend). It
+// changes nothing before `start` and is rigid from start + width on, where it has turned by `angle`
+// radians. Lengths along h = 0 are preserved.
 struct Bend {
   double start;
   double width;
@@ -27,7 +27,7 @@ void ApplyBend(const Bend& bend, double* s, double* h) {
   const double along = *s - bend.start;
   if (along <= 0.0) return;
   const auto turn = [&bend](double u) { return bend.angle * Step(u / bend.width); };
-  // Simpson's rule over the curved part; the rest is straight.
+  // Simpson's rule integrates the curved part; the rest is straight.
   constexpr int kIntervals = 32;
   const double curved = std::min(along, bend.width);
   double x = 0.0;
@@ -46,7 +46,7 @@ void ApplyBend(const Bend& bend, double* s, double* h) {
   *h = y * scale + straight * std::sin(theta) + across * std::cos(theta);
 }
 
-// A bend of constant curvature about s = 0.
+// Applies a bend of constant curvature about s = 0.
 void ApplyArc(double curvature, double* s, double* h) {
   if (curvature == 0.0) return;
   const double theta = curvature * *s;
@@ -60,7 +60,7 @@ double Gaussian(double squared_distance, double sigma) {
 }
 
 Eigen::Vector3d DeformPlane(double phase, Eigen::Vector3d p) {
-  // Centre, height and width of each bump.
+  // x and y of the centre, height and width of each bump.
   constexpr double kBumps[6][4] = {{-0.22, -0.18, 0.060, 0.14},
                                    {0.20, -0.24, -0.045, 0.13},
                                    {0.02, 0.03, 0.050, 0.13},
@@ -74,7 +74,8 @@ Eigen::Vector3d DeformPlane(double phase, Eigen::Vector3d p) {
 }
 
 Eigen::Vector3d DeformDolphin(double phase, Eigen::Vector3d p) {
-  // Tail: s runs backward. Sideways first, while y and z are still those of the straight body.
+  // Tail, where s runs backward. The sideways bend comes first, while y and z are still those of
+  // the straight body.
   double s = -p.x();
   ApplyBend({-0.12, 0.66, 1.40 * phase}, &s, &p.y());
   double h = -p.z();

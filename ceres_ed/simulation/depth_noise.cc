@@ -1,4 +1,4 @@
-// AddDepthNoise of synthetic_rendering.h.
+// Adds the errors of a depth camera to a rendered image (AddDepthNoise() of rendering.h).
 #include <ceres_ed/simulation/rendering.h>
 #include <ceres_ed/util/random.h>
 
@@ -10,11 +10,13 @@
 namespace ceres_ed {
 namespace {
 
-// Pixels at a cosine of kDropOutAll or less all drop out, from kDropOutNone on none does.
+// All pixels with a cosine of kDropOutAll or less drop out; no pixel with a cosine of kDropOutNone
+// or more does.
 constexpr double kDropOutAll = 0.1;
 constexpr double kDropOutNone = 0.35;
 
-// Binomial weights; the sum of their squares is the variance that they leave.
+// Binomial weights of the smoothing filter; the sum of their squares is the variance of the
+// filtered noise.
 constexpr int kReach = 2;
 constexpr double kWeights[2 * kReach + 1] = {1.0, 4.0, 6.0, 4.0, 1.0};
 constexpr double kSumOfSquares = 70.0;
@@ -25,7 +27,7 @@ Image<float> WhiteNoise(int width, int height, Random* random) {
   return noise;
 }
 
-// Independent numbers of variance 1 in, neighbours that resemble each other of variance 1 out;
+// Turns independent numbers of variance 1 into correlated numbers of variance 1. The result is
 // smaller than the input by kReach on each side.
 Image<float> Smooth(const Image<float>& white) {
   const double scale = 1.0 / std::sqrt(kSumOfSquares);
@@ -65,7 +67,8 @@ void AddDepthNoise(double sigma,
       Smooth(WhiteNoise(depth->width() + 2 * kReach, depth->height() + 2 * kReach, &random));
   for (int v = 0; v < depth->height(); ++v) {
     for (int u = 0; u < depth->width(); ++u) {
-      // Drawn for every pixel: what one sees must not change the errors of those behind it.
+      // A number is drawn for every pixel, so that the errors of later pixels do not depend on
+      // which pixels see something.
       const double chance = random.Uniform();
       float& value = (*depth)(u, v);
       if (value == 0.0F) continue;

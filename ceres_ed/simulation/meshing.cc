@@ -17,7 +17,8 @@
 namespace ceres_ed {
 namespace {
 
-// Cuts the tetrahedra of a grid by the surface; one vertex for each grid edge that it crosses.
+// Intersects the tetrahedra of a grid with the surface. Each grid edge that crosses the surface
+// gives one vertex.
 class TetrahedraMarcher {
  public:
   TetrahedraMarcher(const SyntheticSolid& solid, double cell) : cell_(cell) {
@@ -35,7 +36,8 @@ class TetrahedraMarcher {
   }
 
   PointCloud Run() {
-    // The six tetrahedra around the diagonal 0-7 of a cube; corner k has bits x, y, z.
+    // The six tetrahedra around the diagonal 0-7 of a cube. The bits of a corner's number are its
+    // x, y and z.
     constexpr int kTetrahedra[6][4] = {
         {0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
     for (int z = 0; z + 1 < count_[2]; ++z) {
@@ -56,12 +58,12 @@ class TetrahedraMarcher {
  private:
   static constexpr int kBlock = 5;
 
-  // Only blocks near the surface are worth an evaluation at every grid point.
+  // Evaluates every grid point of a block only if the block is near the surface.
   void FillBlock(const SyntheticSolid& solid, const std::array<int, 3>& first) {
     const double half = 0.5 * (kBlock - 1);
     const double center = solid.Value(
         origin_ + cell_ * Eigen::Vector3d(first[0] + half, first[1] + half, first[2] + half));
-    // Twice the way to the corner: the distance is exact to first order only.
+    // Twice the distance to the corner, because the distance is exact to first order only.
     const bool is_far = std::abs(center) > 2.0 * std::sqrt(3.0) * half * cell_;
     for (int z = first[2]; z < std::min(first[2] + kBlock, count_[2]); ++z) {
       for (int y = first[1]; y < std::min(first[1] + kBlock, count_[1]); ++y) {
@@ -86,7 +88,7 @@ class TetrahedraMarcher {
     const std::int64_t key = static_cast<std::int64_t>(a) * static_cast<int>(values_.size()) + b;
     const auto [entry, is_new] = crossings_.emplace(key, static_cast<int>(mesh_.size()));
     if (is_new) {
-      // Vertices right on a grid point would make triangles without area.
+      // Vertices exactly on a grid point would give triangles without area.
       const double t = std::clamp(values_[a] / (values_[a] - values_[b]), 0.05, 0.95);
       mesh_.points.push_back((1.0 - t) * Position(a) + t * Position(b));
     }
@@ -141,7 +143,7 @@ PointCloud MarchTetrahedra(const SyntheticSolid& solid, double cell) {
 
 PointCloud RemeshUniformly(const PointCloud& mesh, const SyntheticSolid& solid, int vertices) {
   CHECK_GE(vertices, 100);
-  // A vertex of an equilateral tiling with edge L owns an area of sqrt(3) / 2 L^2.
+  // In an equilateral tiling with edge length L, each vertex has an area of sqrt(3) / 2 L^2.
   double edge =
       std::sqrt(SurfaceArea(mesh.points, mesh.triangles) / vertices * 2.0 / std::sqrt(3.0));
   SyntheticRemesher remesher(mesh, [&solid](const Eigen::Vector3d& p) { return solid.Project(p); });

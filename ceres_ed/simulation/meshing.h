@@ -1,4 +1,4 @@
-// Well-shaped closed triangle meshes of implicit bodies.
+// Computes closed triangle meshes of well-shaped triangles for implicit bodies.
 #ifndef CERES_ED_SIMULATION_MESHING_H_
 #define CERES_ED_SIMULATION_MESHING_H_
 
@@ -7,13 +7,13 @@
 
 namespace ceres_ed {
 
-// Returns the surface of `solid` as a closed, manifold, outward oriented mesh by marching
-// tetrahedra on a grid of the given cell size (> 0, unit of the solid). Triangles are of any shape;
-// parts thinner than a cell are lost.
+// Returns the surface of `solid` as a closed, manifold, outward oriented mesh, computed by marching
+// tetrahedra on a grid with the given cell size (> 0, in the unit of the solid). The triangles may
+// have any shape, and parts of the body that are thinner than a cell are lost.
 PointCloud MarchTetrahedra(const SyntheticSolid& solid, double cell);
 
-// Returns `mesh` (closed and manifold) remeshed to about `vertices` (>= 100) near-equilateral
-// triangles with every vertex on the surface of `solid`; the topology stays as it is.
+// Returns `mesh` (closed and manifold) remeshed to near-equilateral triangles with about `vertices`
+// (>= 100) vertices, all of which lie on the surface of `solid`. The topology does not change.
 PointCloud RemeshUniformly(const PointCloud& mesh, const SyntheticSolid& solid, int vertices);
 
 }  // namespace ceres_ed

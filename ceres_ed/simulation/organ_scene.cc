@@ -1,4 +1,4 @@
-// The scenes around one of the synthetic shapes: organs and the plane.
+// The scenes that show one of the synthetic shapes: the organs and the plane.
 #include <ceres_ed/simulation/deformations.h>
 #include <ceres_ed/simulation/scene.h>
 
@@ -14,7 +14,8 @@ namespace {
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kRadians = kPi / 180.0;
 
-// A shape with one mesh for truth and pictures, so that exact depth lies on the truth.
+// A scene of one shape. Truth and pictures use the same mesh, so that exact depth lies on the
+// truth.
 class ShapeScene : public SyntheticScene {
  public:
   ShapeScene(SyntheticShape shape, int vertices, int frames)
@@ -39,7 +40,7 @@ class ShapeScene : public SyntheticScene {
   }
 
  protected:
-  // 0 to 1, of DeformSyntheticPoint.
+  // Returns the phase of DeformSyntheticPoint(), 0 to 1.
   virtual double Phase(int frame) const = 0;
 
   const SyntheticShape shape_;
@@ -65,7 +66,8 @@ class OrganScene : public ShapeScene {
     center_ = 0.5 * (low + high);
   }
 
-  // From 50 degrees left of the organ's front (-y) on, with slow swings up, down, to and fro.
+  // The path starts 50 degrees left of the organ's front (-y) and slowly swings up and down, nearer
+  // and farther.
   CameraPose WorldFromCamera(int frame) const override {
     constexpr double kDegreesPerFrame = 1.7;
     const double azimuth = (-90.0 - 50.0 + kDegreesPerFrame * frame) * kRadians;
@@ -96,7 +98,7 @@ class PlaneScene : public ShapeScene {
     return LookAt({0.0, 0.0, Height()}, Eigen::Vector3d::Zero(), Eigen::Vector3d::UnitY());
   }
 
-  // The middle of the sheet, half of its area.
+  // Returns the middle of the sheet, which is half of its area.
   MaskImage Mask(int frame) const override {
     if (frame == 0) return {};
     const double half = 0.5 * size_ * std::sqrt(0.5);
@@ -116,7 +118,7 @@ class PlaneScene : public ShapeScene {
   }
 
  private:
-  // The sheet fills 90 % of the smaller side.
+  // Returns the height at which the sheet fills 90 % of the smaller side of the picture.
   double Height() const {
     return size_ / 0.9 * std::max(camera_.fx / camera_.width, camera_.fy / camera_.height);
   }

@@ -12,22 +12,24 @@
 namespace ceres_ed {
 namespace {
 
+// How to make one pair.
 struct Recipe {
   const char* name;
   SyntheticShape shape;
   int source_vertices;
-  // Of the whole target, before the view.
+  // The number of vertices of the whole target, before the view is applied.
   int target_vertices;
   std::uint64_t seed;
   bool is_partial;
-  // Place of the camera as a multiple of the size, in the frame of the source.
+  // The position of the camera as a multiple of the size, in the frame of the source.
   double eye[3];
-  // Rigid motion: rotation vector in degrees, translation as a share of the size.
+  // The rigid motion: a rotation vector in degrees, and a translation as a share of the size.
   double rotation_deg[3];
   double translation[3];
 };
 
-// Partial targets are seen from the front. Their noise is that of a good stereo reconstruction.
+// The noise on partial targets (seen from the front), as a share of the size. It is the noise of a
+// good stereo reconstruction.
 constexpr double kNoiseShare = 0.0005;
 constexpr Recipe kRecipes[] = {
     {"plane_bumps", SyntheticShape::kPlane, 2500, 3481, 1, false, {}, {}, {}},
@@ -75,8 +77,9 @@ void Move(const Similarity& motion, PointCloud* cloud) {
   for (Eigen::Vector3d& point : cloud->points) point = motion * point;
 }
 
-// The tips of beak, dorsal fin and both halves of the fluke, each with the vertices close by: one
-// vertex alone would not say how its handle is turned.
+// Adds the tips of the beak, of the dorsal fin and of both halves of the fluke as handles. Each
+// handle contains the vertices near the tip, because one vertex alone does not determine the
+// rotation of the handle.
 void AddHandles(SyntheticPair* pair) {
   constexpr double kReach = 0.022;
   const std::vector<Eigen::Vector3d> directions = {

@@ -1,4 +1,4 @@
-// Pairs of surfaces with truth: the sample data, and material for tests.
+// Pairs of surfaces with ground truth, which are the sample data and material for tests.
 #ifndef CERES_ED_SIMULATION_PAIRS_H_
 #define CERES_ED_SIMULATION_PAIRS_H_
 
@@ -15,30 +15,31 @@
 
 namespace ceres_ed {
 
-// A source, the target to fit it to, and where each source vertex really goes.
+// A source, the target to fit it to, and the true place of each source vertex.
 struct SyntheticPair {
   std::string name;
   SyntheticShape shape = SyntheticShape::kPlane;
-  // Metres, as of MakeSyntheticShape.
+  // The size in metres, as in MakeSyntheticShape().
   double size = 0.0;
   std::uint64_t seed = 0;
-  // Deviation of the noise on each target coordinate, metres.
+  // The standard deviation of the noise on each target coordinate, in metres.
   double noise = 0.0;
-  // The rigid motion after the deformation.
+  // The rigid motion that follows the deformation.
   Similarity target_from_source;
 
   PointCloud source;
-  // Meshed apart from the source: its vertices are no vertices of the truth.
+  // The target has a mesh of its own: its vertices are not vertices of the truth.
   PointCloud target;
-  // Every source vertex in the frame of the target, source order, source triangles.
+  // Every source vertex in the frame of the target, in the order of the source and with its
+  // triangles.
   PointCloud truth;
-  // Share of the true surface's area that the target covers; 1 for a full target.
+  // The share of the area of the true surface that the target covers; 1 for a full target.
   double overlap = 1.0;
-  // Source vertices whose true place the camera sees; empty for a full target.
+  // The source vertices whose true place the camera sees; empty for a full target.
   std::vector<int> visible;
-  // Source vertices of the handles with their true places; dolphin only.
+  // The source vertices of the handles with their true places; only for the dolphin.
   std::vector<std::pair<int, Eigen::Vector3d>> landmarks;
-  // Source vertices that the deformation leaves where they are; dolphin only.
+  // The source vertices that the deformation does not move; only for the dolphin.
   std::vector<int> fixed;
 };
 
@@ -46,7 +47,8 @@ struct SyntheticPair {
 // kidney_partial, stomach_partial.
 std::vector<std::string> SyntheticPairNames();
 
-// Returns the pair of that name, the same one each time; CHECK-fails on an unknown name.
+// Returns the pair with that name, which is the same one each time. It CHECK-fails on an unknown
+// name.
 SyntheticPair MakeSyntheticPair(const std::string& name);
 
 }  // namespace ceres_ed

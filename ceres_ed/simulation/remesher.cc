@@ -25,7 +25,7 @@ void Replace(std::array<int, 3>* triangle, int from, int to) {
   std::replace(triangle->begin(), triangle->end(), from, to);
 }
 
-// The largest cosine among the corners: smaller is better shaped.
+// Returns the largest cosine of the angles of a triangle; the smaller it is, the better the shape.
 double WorstCosine(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
   const auto cosine =
       [](const Eigen::Vector3d& o, const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
@@ -57,7 +57,7 @@ std::vector<SyntheticRemesher::Edge> SyntheticRemesher::Edges() const {
   edges.reserve(triangles_.size() * 3 / 2);
   for (const auto& triangle : triangles_) {
     if (triangle[0] < 0) continue;
-    // Each edge of a closed oriented mesh runs once upward.
+    // Each edge of a closed oriented mesh occurs once with its smaller index first.
     for (int k = 0; k < 3; ++k) {
       const int a = triangle[k];
       const int b = triangle[(k + 1) % 3];
@@ -127,7 +127,7 @@ bool SyntheticRemesher::MayCollapse(int keep,
   std::vector<int> common;
   std::set_intersection(
       ring.begin(), ring.end(), other.begin(), other.end(), std::back_inserter(common));
-  // The link condition: more common neighbours would pinch the surface.
+  // The link condition: with more common neighbours, the collapse would pinch the surface.
   if (common.size() != 2) return false;
   for (const int vertex : common) {
     if (around_[vertex].size() <= 3) return false;
@@ -204,7 +204,7 @@ void SyntheticRemesher::Flip(bool delaunay) {
         continue;
       }
     }
-    // Side 0 keeps its orientation when b gives way to d, side 1 when a gives way to c.
+    // Side 0 keeps its orientation if b is replaced by d, and side 1 if a is replaced by c.
     std::array<int, 3> first = triangles_[sides[0]];
     std::array<int, 3> second = triangles_[sides[1]];
     Replace(&first, b, d);
@@ -214,7 +214,7 @@ void SyntheticRemesher::Flip(bool delaunay) {
                                     .normalized();
     const double least = std::min(AreaVector(points_, first).normalized().dot(sum),
                                   AreaVector(points_, second).normalized().dot(sum));
-    // Flipping across a ridge (a fin's edge) would cut it off.
+    // A flip across a ridge (the edge of a fin) would cut the ridge off.
     if (least < 0.8 || AreaVector(points_, triangles_[sides[0]]).normalized().dot(sum) < 0.8)
       continue;
     triangles_[sides[0]] = first;
@@ -237,7 +237,7 @@ void SyntheticRemesher::Relax() {
       const auto& triangle = triangles_[t];
       const Eigen::Vector3d area = AreaVector(points_, triangle);
       normal += area;
-      // Weights by area pull vertices toward sparse places and even out the sizes.
+      // Weights by area move vertices toward sparse places and make the triangle sizes more even.
       centroid +=
           area.norm() / 3.0 * (points_[triangle[0]] + points_[triangle[1]] + points_[triangle[2]]);
       weight += area.norm();

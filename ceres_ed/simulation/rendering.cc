@@ -13,15 +13,16 @@ namespace {
 
 constexpr double kNearestDepth = 1e-4;
 
-// Neighbours share an edge exactly, but their weights are rounded apart: without this a pixel's
-// centre on the edge could fall between them.
+// Neighbouring triangles share an edge exactly, but their weights are rounded differently. Without
+// this tolerance, a pixel centre on the edge could belong to neither of them.
 constexpr double kEdgeTolerance = 1e-9;
 
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The first and the last integer in [low, high] that is a pixel of `size`.
+// Returns the first and the last integer in [low, high] that is a pixel of a row or column of
+// `size` pixels.
 std::pair<int, int> PixelRange(double low, double high, int size) {
   return {static_cast<int>(std::ceil(std::clamp(low, 0.0, static_cast<double>(size)))),
           static_cast<int>(std::floor(std::clamp(high, -1.0, size - 1.0)))};
@@ -62,7 +63,8 @@ class Rasterizer {
   SyntheticRaster Take() { return std::move(raster_); }
 
  private:
-  // What is linear over the picture is 1 / depth: `shares` are the corners' parts of it.
+  // The inverse depth is linear over the picture; `shares` are the contributions of the corners to
+  // it.
   void DrawPixel(int u, int v, int triangle, const std::array<double, 3>& shares) {
     const double nearness = shares[0] + shares[1] + shares[2];
     if (nearness <= nearness_(u, v)) return;

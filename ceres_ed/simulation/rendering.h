@@ -1,4 +1,4 @@
-// Pictures of a triangle mesh: depth, colour, and the noise of a depth camera.
+// Renders a triangle mesh: depth, colour, and the noise of a depth camera.
 #ifndef CERES_ED_SIMULATION_RENDERING_H_
 #define CERES_ED_SIMULATION_RENDERING_H_
 
@@ -14,20 +14,20 @@
 
 namespace ceres_ed {
 
-// The place of a mesh that a pixel sees.
+// The place on a mesh that a pixel sees.
 struct SyntheticFragment {
-  // -1: none.
+  // The triangle, or -1 if the pixel sees nothing.
   int triangle = -1;
-  // Weights of the triangle's corners there; they sum to 1.
+  // The barycentric weights of the triangle's corners at that place; they sum to 1.
   std::array<float, 3> weights = {0.0F, 0.0F, 0.0F};
 };
 
-// A mesh as a camera sees it, pixel by pixel.
+// What a camera sees of a mesh, pixel by pixel.
 struct SyntheticRaster {
   DepthImage depth;
   Image<SyntheticFragment> fragments;
 
-  // Returns the value at the place that pixel (u, v) sees of a field with one vector a vertex; the
+  // Returns the value of a field (one vector per vertex) at the place that pixel (u, v) sees. The
   // pixel must see the mesh that was drawn.
   Eigen::Vector3d Interpolate(const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<Eigen::Vector3d>& field,
@@ -35,25 +35,29 @@ struct SyntheticRaster {
                               int v) const;
 };
 
-// Returns what each pixel's centre sees first of the triangles, from either side. `points`: camera
-// frame, metres. A triangle that reaches nearer than 0.1 mm to the camera's plane is left out.
+// Returns the nearest surface that the centre of each pixel sees, from either side of a triangle.
+// `points` are in the camera frame, in metres. A triangle that comes nearer than 0.1 mm to the
+// camera's plane is left out.
 SyntheticRaster RasterizeMesh(const std::vector<Eigen::Vector3d>& points,
                               const std::vector<std::array<int, 3>>& triangles,
                               const PinholeCamera& camera);
 
-// Returns one unit normal a point, its triangles weighted by their area; zero without any.
+// Returns one unit normal per point, the mean of its triangles' normals weighted by area; zero for
+// a point without triangles.
 std::vector<Eigen::Vector3d> AreaWeightedNormals(const std::vector<Eigen::Vector3d>& points,
                                                  const std::vector<std::array<int, 3>>& triangles);
 
-// Returns for each pixel the cosine in [0, 1] between its ray and the normal of what it sees; 0
-// where it sees nothing. `normals`: one a vertex, camera frame.
+// Returns, for each pixel, the cosine in [0, 1] of the angle between its ray and the normal of the
+// surface that it sees, and 0 where it sees nothing. `normals` has one normal per vertex, in the
+// camera frame.
 Image<float> IncidenceCosines(const SyntheticRaster& raster,
                               const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<Eigen::Vector3d>& normals,
                               const PinholeCamera& camera);
 
-// Returns the picture under a lamp at the camera; black where nothing is seen. `rest`: where each
-// vertex is when the tissue is at rest, metres. `cosines`: as of IncidenceCosines.
+// Returns the picture under a lamp at the camera; it is black where nothing is seen. `rest` is the
+// position of each vertex when the tissue is at rest, in metres. `cosines` is the result of
+// IncidenceCosines().
 ColorImage ShadeTissue(const SyntheticRaster& raster,
                        const std::vector<std::array<int, 3>>& triangles,
                        const std::vector<Eigen::Vector3d>& rest,
@@ -61,11 +65,12 @@ ColorImage ShadeTissue(const SyntheticRaster& raster,
                        const PinholeCamera& camera,
                        const SyntheticTexture& texture);
 
-// Adds a depth camera's errors to the pixels of `depth` that are not 0. The deviation is `sigma` >=
-// 0 (metres) seen straight on and grows as 1 / cosine, to ten times at most; half of the variance
-// is each pixel's own, half is shared with the pixels within four of it (correlation 0.4 between
-// neighbours in a row). From a cosine of 0.35 down ever more pixels drop out, at 0.1 all. A sigma
-// of 0 changes nothing. The same seed gives the same errors.
+// Adds the errors of a depth camera to the pixels of `depth` that are not 0. The standard deviation
+// is `sigma` >= 0 (metres) for a surface seen straight on. It grows as 1 / cosine, up to ten times.
+// Half of the variance is independent for each pixel, and half is shared with the pixels up to four
+// pixels away (the correlation between neighbours in a row is 0.4). Below a cosine of 0.35 a
+// growing share of the pixels drops out, and at 0.1 all do. A sigma of 0 changes nothing. The same
+// seed gives the same errors.
 void AddDepthNoise(double sigma,
                    std::uint64_t seed,
                    const Image<float>& cosines,

@@ -26,7 +26,7 @@ constexpr int kMaxPixels = 8192;
 constexpr double kStripStep = 0.05;
 constexpr double kMaxStripStep = 0.3;
 
-// How long the strip is, in views, and how many frames its camera takes.
+// The length of the strip, in views, and the number of frames of its camera.
 struct StripPlan {
   double views = 1.0;
   int frames = 1;
@@ -69,7 +69,8 @@ std::unique_ptr<SyntheticScene> MakeScene(const SyntheticSequenceOptions& option
   return MakeOrganScene(*shape, vertices, frames(60), options.period);
 }
 
-// Numbers for the noise of each frame that have nothing in common (the finalizer of SplitMix64).
+// Returns a seed for the noise of each frame; the seeds are independent of each other (the
+// finalizer of SplitMix64).
 std::uint64_t FrameSeed(std::uint64_t seed, int frame) {
   std::uint64_t z = seed + 0x9e3779b97f4a7c15ULL * (static_cast<std::uint64_t>(frame) + 1);
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -35,7 +35,7 @@ SyntheticSolid Dolphin() {
              y,
              0.38});
   for (const double side : {1.0, -1.0}) {
-    // Pectoral fin; thin across the plane of its spine and the body's axis.
+    // Pectoral fin, which is thin across the plane of its spine and the axis of the body.
     solid.Add({{{0.20, side * 0.060, -0.050, 0.042},
                 {0.165, side * 0.115, -0.090, 0.036},
                 {0.12, side * 0.160, -0.120, 0.028},
@@ -55,7 +55,7 @@ SyntheticSolid Dolphin() {
 
 SyntheticSolid Heart() {
   SyntheticSolid solid(0.06);
-  // Left ventricle with the apex, right ventricle in front of it.
+  // Left ventricle with the apex, and the right ventricle in front of it.
   solid.Add({{{0.20, 0.00, -0.40, 0.08},
               {0.14, 0.00, -0.26, 0.17},
               {0.07, 0.02, -0.08, 0.25},
@@ -67,7 +67,7 @@ SyntheticSolid Heart() {
   // Right and left atrium.
   solid.Add({{{-0.25, 0.03, 0.14, 0.12}, {-0.24, 0.05, 0.24, 0.13}}});
   solid.Add({{{0.20, 0.06, 0.20, 0.12}, {0.10, 0.14, 0.24, 0.13}}});
-  // Aorta with its arch, pulmonary trunk, upper vena cava.
+  // Aorta with its arch, pulmonary trunk, superior vena cava.
   solid.Add({{{-0.03, 0.02, 0.22, 0.095},
               {-0.05, 0.01, 0.38, 0.085},
               {0.02, 0.04, 0.47, 0.080},
@@ -128,7 +128,8 @@ SyntheticSolid Stomach() {
   return solid;
 }
 
-// Thickness of the thinnest part, unit of the solid: the first mesh must not lose it.
+// Returns the thickness of the thinnest part, in the unit of the solid; the first mesh must not
+// lose it.
 double Thinnest(SyntheticShape shape) { return shape == SyntheticShape::kDolphin ? 0.014 : 0.03; }
 
 PointCloud Plane(int vertices, double size) {
@@ -147,7 +148,7 @@ PointCloud Plane(int vertices, double size) {
       const int b = a + 1;
       const int c = b + side;
       const int d = a + side;
-      // Alternating diagonals favour no direction.
+      // Alternating diagonals avoid a preferred direction.
       if ((row + column) % 2 == 0) {
         mesh.triangles.push_back({a, b, c});
         mesh.triangles.push_back({a, c, d});
@@ -212,7 +213,8 @@ PointCloud MakeSyntheticShape(SyntheticShape shape, int vertices, double size) {
   CHECK_GT(size, 0.0);
   if (shape == SyntheticShape::kPlane) return Plane(vertices, size);
   const SyntheticSolid solid = MakeSyntheticSolid(shape);
-  // Two cells across the thinnest part keep it whole; the wanted edge is about 1.5 / sqrt(count).
+  // Cells smaller than the thinnest part (by 1.5) preserve it; the edges of the final mesh are
+  // about 1.5 / sqrt(count).
   const double cell = std::min(Thinnest(shape) / 1.5, 0.9 / std::sqrt(vertices));
   PointCloud mesh = RemeshUniformly(MarchTetrahedra(solid, cell), solid, vertices);
   for (Eigen::Vector3d& point : mesh.points) point *= size;

@@ -9,10 +9,11 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kSamplesPerSegment = 8;
-// Step of the central differences, unit of the solid (about 1).
+// The step of the central differences, in the unit of the solid (whose size is about 1).
 constexpr double kStep = 1e-4;
 
-// Centripetal splines would be safer on uneven controls; ours are even.
+// Evaluates a uniform Catmull-Rom spline. A centripetal spline would be safer for unevenly spaced
+// control points, but ours are evenly spaced.
 Eigen::Vector4d CatmullRom(const std::vector<Eigen::Vector4d>& balls, int segment, double t) {
   const int last = static_cast<int>(balls.size()) - 1;
   const Eigen::Vector4d& p1 = balls[segment];
@@ -24,7 +25,8 @@ Eigen::Vector4d CatmullRom(const std::vector<Eigen::Vector4d>& balls, int segmen
                 t * t * t * (3.0 * (p1 - p2) + p3 - p0));
 }
 
-// Signed distance to the convex hull of two balls, neither of which holds the other.
+// Returns the signed distance to the convex hull of two balls; if one ball contains the other, to
+// the nearer ball.
 double RoundCone(const Eigen::Vector3d& point,
                  const Eigen::Vector3d& a,
                  const Eigen::Vector3d& b,
@@ -39,7 +41,8 @@ double RoundCone(const Eigen::Vector3d& point,
   }
   const double along = offset.dot(axis) / length;
   const double across = std::sqrt(std::max(0.0, offset.squaredNorm() - along * along));
-  // The hull touches the balls where the generating line, tilted by asin(sine), leaves them.
+  // The hull touches the balls where the generating line, which is tilted by asin(sine), leaves
+  // them.
   const double sine = difference / length;
   const double cosine = std::sqrt(1.0 - sine * sine);
   const double foot = along - across * sine / cosine;
@@ -107,8 +110,9 @@ double SyntheticSolid::Distance(const Chain& chain, const Eigen::Vector3d& point
     }
   }
   if (chain.stretch == 1.0) return best;
-  // A length in the stretched frame over the gradient's norm is a length in the solid's, to first
-  // order: the gradient is M^T n with n the direction away from the chain's axis.
+  // To first order, a length in the stretched frame divided by the norm of the gradient is a length
+  // in the frame of the solid. The gradient is M^T n, where n is the direction away from the axis
+  // of the chain.
   const Eigen::Vector3d& a = chain.centers[nearest];
   const Eigen::Vector3d& b = chain.centers[std::min(nearest + 1, chain.centers.size() - 1)];
   const double squared = (b - a).squaredNorm();
@@ -127,7 +131,7 @@ double SyntheticSolid::Value(const Eigen::Vector3d& point) const {
   for (std::size_t k = 1; k < chains_.size(); ++k) {
     const Chain& chain = chains_[k];
     const double sign = chain.carve ? -1.0 : 1.0;
-    // Beyond the fillet a tube changes nothing.
+    // Beyond the fillet, a tube changes nothing.
     const double least = (point - chain.bound_center).norm() - chain.bound_radius;
     if (least >= sign * value + blend_) continue;
     value = sign * SmoothMin(sign * value, Distance(chain, point), blend_);
@@ -150,7 +154,7 @@ Eigen::Vector3d SyntheticSolid::Project(const Eigen::Vector3d& point) const {
     const double value = Value(projected);
     if (std::abs(value) < 1e-9) break;
     const Eigen::Vector3d gradient = Gradient(projected);
-    // Across a ridge of the distance the gradient vanishes; a floor keeps the step finite.
+    // The gradient vanishes at a ridge of the distance; a lower bound keeps the step finite.
     projected -= value / std::max(gradient.squaredNorm(), 0.25) * gradient;
   }
   return projected;

@@ -1,4 +1,4 @@
-// The strip: a band of any length.
+// The scene of the strip: a band of any length.
 #include <ceres_ed/simulation/scene.h>
 
 #include <algorithm>
@@ -12,19 +12,21 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// Metres.
+// The width of the band and the height of the camera, in metres.
 constexpr double kWidth = 0.07;
 constexpr double kCameraHeight = 0.1;
-// Tissue beyond the ends of the length, so that the first and the last picture are full: the relief
-// lies up to 7.2 mm deep, which shows 4 mm more at either end, and the waves carry it by 2 mm.
+// The length of the tissue beyond both ends of the strip, so that the first and the last picture
+// are full. The relief is up to 7.2 mm deep, which shows 4 mm more at either end, and the waves
+// move it by 2 mm.
 constexpr double kEnd = 0.012;
-// Vertices that are drawn, and the usual and the widest spacing of truth.
+// The spacing of the vertices that are drawn, and the usual and the widest spacing of the truth, in
+// metres.
 constexpr double kPatchSpacing = 0.75e-3;
 constexpr double kTruthSpacing = 1.5e-3;
 constexpr double kWidestTruthSpacing = 4e-3;
 
-// A sine over the band: height, wavelengths along x and y, and phase. The wavelengths have no
-// common multiple, so that no two places look alike.
+// A sine wave of the surface height: height, wavelengths along x and y, and phase. The wavelengths
+// have no common multiple, so that no two places look alike.
 struct Relief {
   double height;
   double along;
@@ -37,8 +39,8 @@ constexpr Relief kReliefs[] = {{3.5e-3, 0.0913, 0.211, 0.3},
                                {0.5e-3, -0.0191, 0.0167, 2.9},
                                {0.4e-3, 0.0127, 0.0331, 5.3}};
 
-// A wave that travels through the band: how far it carries the tissue (metres), wavelengths along
-// x and y, and its period in units of the scene's.
+// A wave that travels through the band: how far it moves the tissue (metres), its wavelengths along
+// x and y, and its period as a multiple of the period of the scene.
 struct Wave {
   double x, y, z;
   double along;
@@ -49,7 +51,7 @@ constexpr Wave kWaves[] = {{0.4e-3, 0.3e-3, 1.2e-3, 0.113, 0.31, 1.0},
                            {0.3e-3, -0.2e-3, 0.5e-3, -0.0617, 0.143, 1.37},
                            {-0.15e-3, 0.2e-3, 0.3e-3, 0.0389, -0.0713, 0.79}};
 
-// Vertices first, first + 1 ... of a line with the given spacing.
+// The vertices first, first + 1, ... of a line with the given spacing.
 struct Line {
   int first;
   int count;
@@ -80,7 +82,7 @@ class StripScene : public SyntheticScene {
     return Band(-kEnd, length_ + kEnd, spacing);
   }
 
-  // A quarter of a view more at each end than a flat band would show.
+  // The patch is longer by a quarter of a view at each end than what a flat band would show.
   PointCloud RestPatch(int frame) const override {
     const double x = CameraX(frame);
     return Band(std::max(-kEnd, x - 0.75 * view_),
@@ -93,7 +95,7 @@ class StripScene : public SyntheticScene {
     for (const Wave& wave : kWaves) {
       const double place = 2.0 * kPi * (rest.x() / wave.along + rest.y() / wave.across);
       const double time = 2.0 * kPi * frame / (wave.period * period_);
-      // Less its value at frame 0, when the tissue is at rest.
+      // The value at frame 0 is subtracted, because the tissue is at rest there.
       const double swing = std::sin(place - time) - std::sin(place);
       point += swing * Eigen::Vector3d(wave.x, wave.y, wave.z);
     }
@@ -106,13 +108,14 @@ class StripScene : public SyntheticScene {
   }
 
  private:
-  // The middle of the view: from half a view behind one end to half a view before the other.
+  // Returns the middle of the view: it moves from half a view after one end to half a view before
+  // the other.
   double CameraX(int frame) const {
     const double share = frames_ == 1 ? 0.0 : static_cast<double>(frame) / (frames_ - 1);
     return 0.5 * view_ + share * (length_ - view_);
   }
 
-  // The vertex count of a spacing, within the range of int.
+  // Returns the number of vertices for a spacing, limited to the range of int.
   int VerticesAt(double spacing) const {
     const double count = (length_ + 2.0 * kEnd) * kWidth / (spacing * spacing);
     return static_cast<int>(std::min(std::ceil(count), 2e9));
@@ -126,8 +129,8 @@ class StripScene : public SyntheticScene {
     return z;
   }
 
-  // Vertices lie at whole multiples of the spacing along x, so that the same ones come back when
-  // the ends move.
+  // The vertices lie at integer multiples of the spacing along x, so that the same vertices occur
+  // again when the ends move.
   static PointCloud Band(double begin, double end, double spacing) {
     const Line along = {
         static_cast<int>(std::ceil(begin / spacing)),

@@ -6,7 +6,7 @@
 namespace ceres_ed {
 namespace {
 
-// Contrast of the mottles at each wavelength, metres.
+// The contrast of the mottles at each wavelength, in metres.
 struct Mottle {
   double wavelength;
   double contrast;
@@ -14,7 +14,8 @@ struct Mottle {
 constexpr Mottle kMottles[] = {
     {0.024, 0.9}, {0.010, 0.8}, {0.0045, 0.7}, {0.002, 0.6}, {0.0009, 0.5}, {0.00045, 0.4}};
 
-// The half-width of a line in units of the noise that draws it: about 3 % of their spacing.
+// The half-width of a line in units of the noise that draws it; it is about 3 % of the spacing of
+// the lines.
 constexpr double kLineLevel = 0.05;
 
 std::uint32_t Mix(std::uint32_t h) {
@@ -25,8 +26,8 @@ std::uint32_t Mix(std::uint32_t h) {
   return h ^ (h >> 16);
 }
 
-// The noise near a corner of its grid: a slope of one of sixteen directions, by the upper bits of
-// `hash`, times the way from there.
+// Returns the noise near a corner of its grid: the offset from the corner times a slope. The upper
+// bits of `hash` select one of sixteen directions for the slope.
 double Slope(std::uint32_t hash, double x, double y, double z) {
   static constexpr double kDirections[16][3] = {{1, 1, 0},
                                                 {-1, 1, 0},
@@ -48,7 +49,8 @@ double Slope(std::uint32_t hash, double x, double y, double z) {
   return direction[0] * x + direction[1] * y + direction[2] * z;
 }
 
-// std::floor is a call where the processor may not be assumed to have it.
+// A fast floor: std::floor() is a function call unless the compiler may assume that the processor
+// has an instruction for it.
 std::int64_t Floor(double x) {
   const auto whole = static_cast<std::int64_t>(x);
   return static_cast<double>(whole) > x ? whole - 1 : whole;
@@ -58,7 +60,7 @@ double Fade(double t) { return t * t * t * (t * (6.0 * t - 15.0) + 10.0); }
 
 double Lerp(double t, double a, double b) { return a + t * (b - a); }
 
-// 1 where a wave is at least four pixels long, 0 below two.
+// Returns 1 if a wave is at least four pixels long, and 0 if it is shorter than two.
 double Resolved(double wavelength, double pixel) {
   return std::clamp(0.5 * (wavelength / pixel - 2.0), 0.0, 1.0);
 }
@@ -68,7 +70,7 @@ double Resolved(double wavelength, double pixel) {
 SyntheticTexture::SyntheticTexture(std::uint64_t seed)
     : seed_(Mix(static_cast<std::uint32_t>(seed) ^ Mix(static_cast<std::uint32_t>(seed >> 32)))) {}
 
-// Gradient noise: smooth, of mean 0, and hardly ever outside [-1, 1].
+// Gradient noise, which is smooth, has mean 0, and rarely leaves [-1, 1].
 double SyntheticTexture::Noise(const Eigen::Vector3d& rest,
                                double wavelength,
                                std::uint32_t layer) const {
@@ -95,7 +97,8 @@ double SyntheticTexture::Noise(const Eigen::Vector3d& rest,
   return Lerp(Fade(f.z()), face(0), face(1));
 }
 
-// 1 in the middle of a line, 0 away from it: where a noise is zero there are closed curves.
+// Returns 1 in the middle of a line and 0 away from it. The lines are the closed curves where a
+// noise is zero.
 double SyntheticTexture::Lines(const Eigen::Vector3d& rest, double spacing, double pixel) const {
   const double resolved = Resolved(4.0 * kLineLevel * spacing, pixel);
   if (resolved == 0.0) return 0.0;

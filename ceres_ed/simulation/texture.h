@@ -8,15 +8,15 @@
 
 namespace ceres_ed {
 
-// A colour for every point of space: mottles of 24 to 0.45 mm and dark, branching lines like
-// vessels. Given the place of a tissue point at rest it moves and stretches with the tissue, and
-// corner detectors find something at every distance.
+// A colour for every point of space: mottles with wavelengths of 24 to 0.45 mm, and dark, branching
+// lines like vessels. Because it is evaluated at the rest position of a tissue point, the texture
+// moves and stretches with the tissue. Corner detectors find features in it at every distance.
 class SyntheticTexture {
  public:
   explicit SyntheticTexture(std::uint64_t seed);
 
-  // Returns red, green and blue in [0, 1]. `rest`: metres. `pixel` > 0: how many metres of tissue a
-  // pixel covers; details that are too fine for it fade out, which keeps them from flickering.
+  // Returns red, green and blue in [0, 1]. `rest` is in metres. `pixel` > 0 is the size of a pixel
+  // on the tissue in metres; details that are too fine for it fade out, which avoids flicker.
   Eigen::Vector3d Color(const Eigen::Vector3d& rest, double pixel) const;
 
  private:

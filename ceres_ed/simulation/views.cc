@@ -19,7 +19,7 @@ double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-// The mesh in the picture, with its triangles sorted into a grid of cells.
+// The projection of the mesh into the picture, with its triangles sorted into a grid of cells.
 class Picture {
  public:
   Picture(const PointCloud& mesh, const SyntheticView& view) : mesh_(mesh), view_(view) {
@@ -36,7 +36,8 @@ class Picture {
       const bool is_ahead = view.parallel || depth > 0.0;
       image_.emplace_back(is_ahead ? right.dot(ray) / divisor : 0.0,
                           is_ahead ? down.dot(ray) / divisor : 0.0);
-      // What is linear over a triangle's image: minus the depth, or its inverse.
+      // A value that is linear over a triangle's image: the negative depth for parallel rays, the
+      // inverse depth for a pinhole.
       nearness_.push_back(view.parallel ? -depth : 1.0 / depth);
       is_ahead_.push_back(is_ahead);
       is_inside_.push_back(is_ahead && (view.parallel || image_.back().norm() <= widest));
@@ -103,7 +104,7 @@ class Picture {
     if (area == 0.0) return false;
     double nearness = 0.0;
     for (int k = 0; k < 3; ++k) {
-      // A ray through an edge is cut: no gap between two triangles.
+      // A ray through an edge counts as cut, so that there is no gap between two triangles.
       if (weights[k] / area < -1e-12) return false;
       nearness += weights[k] / area * nearness_[t[k]];
     }

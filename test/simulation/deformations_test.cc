@@ -19,7 +19,7 @@ class SyntheticDeformation : public testing::TestWithParam<SyntheticShape> {
   static constexpr double kSize = 0.1;
   const PointCloud& rest_ = Rest(GetParam());
 
-  // Meshing takes longer than any test here: once a shape.
+  // Meshing takes longer than any of these tests, so each shape is meshed once.
   static const PointCloud& Rest(SyntheticShape shape) {
     static auto* const shapes = new std::map<SyntheticShape, PointCloud>();
     const auto [entry, is_new] = shapes->try_emplace(shape);
@@ -60,8 +60,8 @@ TEST_P(SyntheticDeformation, NeverFoldsOnOrInsideTheBody) {
 }
 
 TEST_P(SyntheticDeformation, HasAContinuousJacobian) {
-  // The largest second derivative is about 60 a unit (the bends); over 2e-4 that is 0.012. A jump
-  // of the Jacobian would show as it is, whatever the step.
+  // The largest second derivative is about 60 per unit (in the bends), which over 2e-4 gives 0.012.
+  // A jump of the Jacobian would not shrink with the step.
   for (const Eigen::Vector3d& point : rest_.points) {
     for (int k = 0; k < 3; ++k) {
       const Eigen::Vector3d h = 1e-4 * kSize * Eigen::Vector3d::Unit(k);
@@ -119,7 +119,7 @@ TEST(SyntheticDeformations, TheTrunkOfTheDolphinIsHeldWhileTheFlukeMovesFar) {
 }
 
 TEST(SyntheticDeformations, TheArcOfTheKidneyKeepsTheLengthOfItsAxis) {
-  // Far behind the indentation, whose Gaussian is below 1e-9 there.
+  // A point far behind the indentation, where its Gaussian is below 1e-9.
   const auto deform = [](double z) {
     return DeformSyntheticPoint(SyntheticShape::kKidney, 1.0, 1.0, {0.0, 1.0, z});
   };

@@ -41,11 +41,11 @@ TEST(SyntheticPairs, TheShippedTargetsLieOnTheShippedTruths) {
     ASSERT_FALSE(truth.empty() || target.empty()) << name;
     const StatusOr<Evaluation> evaluation = Evaluate(truth, target);
     ASSERT_TRUE(evaluation.ok()) << evaluation.status().message();
-    // Two meshes of one surface part by the sagitta of their edges, and by the noise.
+    // Two meshes of the same surface differ by the sagitta of their edges, and by the noise.
     const double diagonal = evaluation->diagonal;
     EXPECT_LT(evaluation->backward.InPercentOf(diagonal).mean, 0.15) << name;
     EXPECT_LT(evaluation->backward.InPercentOf(diagonal).max, 0.8) << name;
-    // But for the corners of the plane no target vertex is a vertex of the truth.
+    // Except for the corners of the plane, no target vertex is a vertex of the truth.
     int shared = 0;
     const KdTree tree(truth.points);
     for (const auto& point : target.points) shared += tree.Nearest(point).squared_distance == 0.0;

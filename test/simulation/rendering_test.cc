@@ -17,7 +17,8 @@ using Triangles = std::vector<std::array<int, 3>>;
 
 PinholeCamera Camera() { return {70.0, 65.0, 31.0, 24.5, 64, 48}; }
 
-// The depth of the nearest triangle on the ray of a pixel by solving for its weights; 0: none.
+// Returns the depth of the nearest triangle on the ray of a pixel, computed from the barycentric
+// weights, or 0 if there is none.
 double CastRay(const std::vector<Eigen::Vector3d>& points,
                const Triangles& triangles,
                const Eigen::Vector3d& ray) {
@@ -33,7 +34,7 @@ double CastRay(const std::vector<Eigen::Vector3d>& points,
 }
 
 TEST(RasterizeMesh, GivesTheDepthOfATiltedPlaneInClosedForm) {
-  // n . p = d, in two triangles that overfill the picture.
+  // The plane n . p = d, as two triangles that extend beyond the picture.
   const Eigen::Vector3d n = Eigen::Vector3d(0.4, -0.3, 1.0).normalized();
   const double d = 0.2;
   std::vector<Eigen::Vector3d> points;
@@ -100,7 +101,7 @@ TEST(RasterizeMesh, LeavesOutWhatReachesBehindTheCamera) {
 }
 
 TEST(RasterizeMesh, LeavesNoCracksInAFineMesh) {
-  // Far more triangles than pixels, with vertices and edges on the centres of pixels.
+  // There are far more triangles than pixels, with vertices and edges exactly on pixel centres.
   PointCloud plane = MakeSyntheticShape(SyntheticShape::kPlane, 10000, 0.4);
   for (Eigen::Vector3d& point : plane.points) point.z() += 0.2;
   const PinholeCamera camera = {50.0, 50.0, 32.0, 24.0, 64, 48};
@@ -109,7 +110,7 @@ TEST(RasterizeMesh, LeavesNoCracksInAFineMesh) {
 }
 
 TEST(IncidenceCosines, AreThoseOfASphere) {
-  // A body blown up to a ball, with the ball's normals.
+  // A body projected to a sphere, with the normals of the sphere.
   PointCloud mesh = MakeSyntheticShape(SyntheticShape::kHeart, 1000, 0.1);
   const Eigen::Vector3d center(0.0, 0.0, 0.3);
   std::vector<Eigen::Vector3d> normals;
@@ -122,7 +123,8 @@ TEST(IncidenceCosines, AreThoseOfASphere) {
   for (int v = 12; v < 36; ++v) {
     for (int u = 20; u < 44; ++u) {
       const Eigen::Vector3d ray = Camera().BackProject(u, v, 1.0).normalized();
-      // The sine at the surface is the ray's distance from the centre over the radius.
+      // The sine of the angle at the surface is the distance of the ray from the centre, divided by
+      // the radius.
       const double sine = (center - center.dot(ray) * ray).norm() / 0.1;
       if (sine > 0.8) continue;
       ASSERT_NEAR(cosines(u, v), std::sqrt(1.0 - sine * sine), 0.01) << u << " " << v;
@@ -134,7 +136,7 @@ TEST(IncidenceCosines, AreThoseOfASphere) {
 TEST(SyntheticTexture, ShowsContrastAtEveryDistanceUpToItsLargestMottles) {
   const SyntheticTexture texture(1);
   for (const double pixel : {5e-5, 1.5e-4, 5e-4, 1.5e-3}) {
-    // Differences between points three pixels apart, as a corner detector sees them.
+    // The differences of points three pixels apart, which is what a corner detector sees.
     double sum = 0.0;
     constexpr int kSamples = 2000;
     for (int k = 0; k < kSamples; ++k) {
@@ -142,7 +144,7 @@ TEST(SyntheticTexture, ShowsContrastAtEveryDistanceUpToItsLargestMottles) {
       const Eigen::Vector3d q = p + Eigen::Vector3d(3.0 * pixel, 0.0, 0.0);
       sum += (texture.Color(p, pixel) - texture.Color(q, pixel)).cwiseAbs().maxCoeff();
     }
-    // Well above the rounding of 8 bits.
+    // This is well above the rounding of 8 bits.
     EXPECT_GT(sum / kSamples, 5.0 / 255.0) << pixel;
   }
 }
@@ -160,7 +162,7 @@ TEST(SyntheticTexture, DependsOnItsSeed) {
             SyntheticTexture(1 + (std::uint64_t{1} << 32)).Color(p, 1e-4));
 }
 
-// Depth errors of a flat wall that is seen under the same cosine everywhere.
+// Returns the depth errors of a flat wall that is seen under the same cosine everywhere.
 class DepthNoise : public ::testing::Test {
  protected:
   DepthImage Noisy(double sigma, std::uint64_t seed, float cosine) const {
@@ -173,7 +175,7 @@ class DepthNoise : public ::testing::Test {
 };
 
 TEST_F(DepthNoise, HasTheStatedSpreadAndNoBias) {
-  // 160,000 pixels with some correlation: the spread is known to about 0.4 %.
+  // With 160,000 pixels and some correlation, the spread is known to about 0.4 %.
   for (const float cosine : {1.0F, 0.5F}) {
     const DepthImage depth = Noisy(1e-3, 5, cosine);
     double sum = 0.0;

@@ -25,7 +25,7 @@ SyntheticSequenceOptions Small(SyntheticSceneKind kind) {
   return options;
 }
 
-// What the pixels of a frame see, world frame.
+// Returns the points that the pixels of a frame see, in the world frame.
 std::vector<Eigen::Vector3d> SeenPoints(const SyntheticSequence& sequence,
                                         const SyntheticFrame& frame) {
   std::vector<Eigen::Vector3d> points;
@@ -58,8 +58,9 @@ class EveryScene : public ::testing::TestWithParam<SyntheticSceneKind> {};
 
 TEST_P(EveryScene, HasDepthThatLiesOnTheTruthOfItsFrame) {
   const SyntheticSequence sequence(Small(GetParam()));
-  // Pictures and truth of the strip have meshes of their own: chords of 1.5 mm (2.1 mm along the
-  // diagonal) leave its relief by less than 0.2 mm. Elsewhere only the depth's float rounds.
+  // Pictures and truth of the strip have different meshes: chords of 1.5 mm (2.1 mm along the
+  // diagonal) differ from its relief by less than 0.2 mm. For the other scenes the only difference
+  // is the rounding of the depth to float.
   const double tolerance = GetParam() == SyntheticSceneKind::kStrip ? 2e-4 : 1e-7;
   for (const int k : {0, 6, 9}) {
     const std::vector<Eigen::Vector3d> seen = SeenPoints(sequence, sequence.Render(k, false));
@@ -111,7 +112,7 @@ TEST_P(EveryScene, ShowsAnUprightPictureOfTheSurfaceInFront) {
     const CameraPose pose = sequence.Render(k, false).world_from_camera;
     const Eigen::Matrix3d rotation = pose.rotation.toRotationMatrix();
     EXPECT_NEAR(rotation.determinant(), 1.0, 1e-12);
-    // y of the picture goes down: against z around an organ, against y above a sheet.
+    // The y axis of the picture points down: against z around an organ, against y above a sheet.
     EXPECT_GT(std::max(-rotation(2, 1), -rotation(1, 1)), 0.9);
   }
 }
@@ -151,7 +152,7 @@ TEST(PlaneScene, IsSeenWholeAtRestAndByHalfLaterUnderAStillCamera) {
   const auto seen = [&](const SyntheticFrame& frame) {
     return double(SeenPoints(sequence, frame).size());
   };
-  // The whole sheet, border and all, lies inside the picture.
+  // The whole sheet with its border lies inside the picture.
   for (const Eigen::Vector3d& point : sequence.truth_mesh().points) {
     const Eigen::Vector3d in_camera = first.world_from_camera.rotation.conjugate() *
                                       (point - first.world_from_camera.translation);
@@ -179,7 +180,8 @@ TEST(StripScene, ShowsTheSameSizeInEveryFrame) {
   }
   seen.push_back(SeenPoints(sequence, sequence.Render(sequence.num_frames() - 1, false)).size());
   const auto [least, most] = std::minmax_element(seen.begin(), seen.end());
-  // The relief brings the band's two borders nearer and farther.
+  // Because of the relief, the two borders of the band are nearer in some places and farther in
+  // others.
   EXPECT_LT(*most / *least, 1.08);
   EXPECT_GT(*least, 0.7 * 80 * 60);
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-// How many triangles use each edge in each direction.
+// Returns how many triangles use each edge in each direction.
 std::map<std::pair<int, int>, int> DirectedEdges(const PointCloud& mesh) {
   std::map<std::pair<int, int>, int> edges;
   for (const auto& t : mesh.triangles) {
@@ -74,8 +74,8 @@ TEST_P(SyntheticBody, IsAClosedOutwardManifoldOfGoodTriangles) {
     ExpectClosedManifoldSphere(mesh);
     EXPECT_EQ(DistinctPoints(mesh), mesh.size());
     EXPECT_GT(Volume(mesh), 0.0);
-    // Remeshing by Botsch and Kobbelt keeps angles above 30 degrees but for thin fins at low
-    // counts.
+    // The remeshing of Botsch and Kobbelt keeps angles above 30 degrees, except for thin fins at
+    // low vertex counts.
     EXPECT_GT(SmallestAngleDeg(mesh), vertices < 1000 ? 15.0 : 30.0);
   }
 }
@@ -153,7 +153,8 @@ TEST(SyntheticMeshing, TheVolumeOfAMeshedBallIsThatOfTheBall) {
   solid.Add({{{0.0, 0.0, 0.0, 0.5}}, Eigen::Vector3d::UnitZ(), 1.0});
   const PointCloud mesh = RemeshUniformly(MarchTetrahedra(solid, 0.04), solid, 1500);
   ExpectClosedManifoldSphere(mesh);
-  // A polyhedron in the ball with 3000 faces lacks about 2 pi / (sqrt(3) n) = 0.24 % of the volume.
+  // A polyhedron in the ball with 3000 faces has less volume than the ball by about 2 pi / (sqrt(3)
+  // n) = 0.24 %.
   const double ball = 4.0 / 3.0 * kPi * 0.125;
   EXPECT_LT(Volume(mesh), ball);
   EXPECT_NEAR(Volume(mesh), ball, 0.005 * ball);

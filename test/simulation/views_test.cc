@@ -14,7 +14,7 @@
 namespace ceres_ed {
 namespace {
 
-// Moeller and Trumbore's test: does the segment from `eye` to `point` cross the triangle?
+// The test of Moeller and Trumbore: does the segment from `eye` to `point` intersect the triangle?
 bool Crosses(const Eigen::Vector3d& eye,
              const Eigen::Vector3d& point,
              const Eigen::Vector3d& a,
@@ -61,7 +61,8 @@ TEST(VisibleVertices, OfABallAreTheCapThatTheCameraSees) {
   const PointCloud ball = Ball(1500);
   SyntheticView view;
   view.eye = Eigen::Vector3d(0.0, -4.0, 0.0);
-  // The rim of the cap is at n . eye = 1; a vertex within one edge (0.1) of it may go either way.
+  // The rim of the cap is at n . eye = 1; a vertex within one edge length (0.1) of it may count
+  // either way.
   const auto visible = VisibleVertices(ball, view);
   for (std::size_t k = 0; k < ball.size(); ++k) {
     const double beyond = ball.points[k].dot(view.eye) / 4.0 - 0.25;
@@ -158,7 +159,7 @@ TEST(SyntheticNoise, HasItsDeviationAndDependsOnItsSeedAlone) {
   for (std::size_t k = 0; k < clean.size(); ++k) {
     squares += (first.points[k] - clean.points[k]).squaredNorm();
   }
-  // Four standard errors of a deviation from n values: 4 / sqrt(2 n).
+  // Four standard errors of a standard deviation from n values: 4 / sqrt(2 n).
   const double count = 3.0 * static_cast<double>(clean.size());
   EXPECT_NEAR(std::sqrt(squares / count), 0.01, 0.01 * 4.0 / std::sqrt(2.0 * count));
 }
