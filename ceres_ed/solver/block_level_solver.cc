@@ -13,10 +13,11 @@
 namespace ceres_ed {
 namespace {
 
-// Damping of a parameter that nothing curves, relative to the mean of all.
+// The smallest damping, relative to the mean; it applies to parameters without curvature.
 constexpr double kMinRelativeDiagonal = 1e-6;
 
-// The variable parameters of a state, to go back to: a step costs nothing for what it doesn't move.
+// A copy of the variable parameters, to undo a step. Its cost does not depend on the rest of the
+// state.
 class SavedUnknowns {
  public:
   void Save(const NormalEquations& equations, const DeformationState& state) {
@@ -42,7 +43,7 @@ class SavedUnknowns {
   std::vector<double> nodes_;
 };
 
-// One Levenberg-Marquardt minimisation.
+// One minimisation by the Levenberg-Marquardt method.
 class Minimizer {
  public:
   Minimizer(const ProblemBuilder& builder,
@@ -83,7 +84,7 @@ class Minimizer {
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;
   SavedUnknowns before_;
-  // Of the last step that could not be evaluated and was to be explained.
+  // The reason why the last step could not be evaluated, if an explanation was requested.
   std::string fault_;
 };
 
@@ -92,14 +93,15 @@ bool Minimizer::EvaluateEquations() {
     return false;
   }
   diagonal_ = structure_.Diagonal(values_);
-  // A derivative that isn't finite.
+  // A derivative may be infinite or NaN.
   return gradient_.allFinite();
 }
 
-// Tests the step that minimises the damped quadratic model, and takes it if the cost follows. The
-// equations at the new state are worked out unless no step comes after it. `explain` looks for what
-// makes the step invalid.
+// Computes the step that minimises the damped quadratic model, and takes it if it decreases the
+// cost enough. The equations at the new state are evaluated unless this is the last step. With
+// `explain`, the reason for an invalid step is determined.
 Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
+  // The damped normal equations (H + D / radius) delta = -g, where D is the diagonal of H.
   const int num_rows = structure_.num_primal_rows();
   const double floor = std::max(kMinRelativeDiagonal * diagonal_.head(num_rows).mean(), 1e-300);
   Eigen::VectorXd damping = Eigen::VectorXd::Zero(structure_.num_rows());
@@ -108,6 +110,7 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   Eigen::VectorXd delta = cholesky_->Solve(-gradient_);
   delta.tail(structure_.num_rows() - num_rows).setZero();
   if (!delta.allFinite()) return Step::kInvalid;
+  // The decrease that the quadratic model predicts for this step.
   const double model_decrease =
       0.5 * (delta.dot(damping.cwiseProduct(delta)) - gradient_.dot(delta));
   if (!(model_decrease > 0.0)) return Step::kInvalid;
@@ -118,7 +121,8 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   before_.Save(equations_, *state_);
   equations_.Plus(delta, state_);
   double candidate_cost = 0.0;
-  // The cost alone: the matrix is the largest thing there is, and need not be there twice.
+  // Only the cost is evaluated here: the matrix is the largest object, and a second copy is not
+  // needed.
   const bool valid = equations_.EvaluateCost(*state_, options_.num_threads, &candidate_cost);
   const double decrease = cost_ - candidate_cost;
   const double quality = decrease / model_decrease;
@@ -130,7 +134,8 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   const bool converged = std::abs(decrease) <= options_.function_tolerance * cost_;
   cost_ = candidate_cost;
   if (!last && !converged && !EvaluateEquations()) {
-    // The cost is finite there and a derivative is not: back to where both were.
+    // The cost is finite at the new state but a derivative is not: return to the old state, where
+    // both are.
     if (explain) fault_ = builder_.CheckResiduals(*state_).message();
     before_.Restore(equations_, state_);
     EvaluateEquations();
@@ -140,7 +145,7 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   return converged ? Step::kConverged : Step::kAccepted;
 }
 
-// True, with status and message set, when no further iteration is wanted.
+// Returns true, with status and message set, if no further iteration is needed.
 bool Minimizer::IsDone(int valid_steps, SolveSummary* summary) const {
   const auto end = [summary](SolveStatus status, const char* message) {
     summary->status = status;
@@ -173,8 +178,8 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
   }
   level->initial_cost = cost_;
   level->final_cost = cost_;
-  // Invalid steps don't count against the limit: a solve of one step would else end where it began,
-  // and nobody would know.
+  // Invalid steps do not count toward the limit. Otherwise a solve with a limit of one step could
+  // end where it began, without any sign of it.
   int valid_steps = 0;
   int invalid_steps = 0;
   while (!IsDone(valid_steps, summary)) {
@@ -211,13 +216,13 @@ void BlockLevelSolver::UpdateStructure(const ProblemConfig& config) {
   const bool same_unknowns =
       structure_ != nullptr && variable_nodes_ == config.variable_nodes && sizes_ == sizes;
   if (same_unknowns && equations_.SetStructure(structure_.get())) return;
-  // Dual blocks are those of single points: these are others in the next problem.
+  // Dual blocks belong to single points, which are different in the next problem.
   if (!same_unknowns || equations_.num_dual() > 0) pairs_.clear();
   const std::vector<BlockPair> pairs = equations_.BlockPairs();
   pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
   variable_nodes_ = config.variable_nodes;
   sizes_ = sizes;
-  // The factor refers to the structure: it goes first.
+  // The factor refers to the structure, so it is destroyed first.
   cholesky_.reset();
   structure_ = std::make_unique<BlockStructure>(sizes_, pairs_, equations_.num_dual());
   pairs_ = structure_->Pairs();

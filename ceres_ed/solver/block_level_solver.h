@@ -1,4 +1,4 @@
-// Solves one ProblemConfig on block normal equations.
+// Minimises one ProblemConfig with block normal equations.
 #ifndef CERES_ED_SOLVER_BLOCK_LEVEL_SOLVER_H_
 #define CERES_ED_SOLVER_BLOCK_LEVEL_SOLVER_H_
 
@@ -12,10 +12,10 @@
 
 namespace ceres_ed {
 
-// Levenberg-Marquardt with the acceptance rules and tolerances of Ceres, on the same cost functions
-// and losses. Keeps structure and symbolic factor from solve to solve: while the variable nodes
-// stay the same, pairs of blocks only ever join the structure, so that new correspondences seldom
-// cost a new analysis.
+// The Levenberg-Marquardt method with the acceptance rules and tolerances of Ceres, on the same
+// cost functions and losses. It keeps the block structure and the symbolic factor from one solve to
+// the next: as long as the variable nodes are the same, pairs of blocks are only added to the
+// structure, so that new correspondences rarely require a new analysis.
 class BlockLevelSolver final : public LevelSolver {
  public:
   bool Solve(const ProblemBuilder& builder,
@@ -25,10 +25,10 @@ class BlockLevelSolver final : public LevelSolver {
              SolveSummary* summary) override;
 
  private:
-  // Sees to it that the equations have a structure and a factor that fit them.
+  // Ensures that the structure and the factor fit the equations.
   void UpdateStructure(const ProblemConfig& config);
 
-  // Those of the last problem, kept for their memory.
+  // Objects of the last problem, which are kept to reuse their memory.
   NormalEquations equations_;
   std::vector<double> values_;
   FactorMemory memory_;

@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// Ends the solve when the caller wants it; Ceres then keeps the best state.
+// Ends the solve when the caller requests it; Ceres then keeps the best state.
 class StopCallback final : public ceres::IterationCallback {
  public:
   explicit StopCallback(const std::function<bool()>& should_stop) : should_stop_(should_stop) {}
@@ -30,8 +30,8 @@ class StopCallback final : public ceres::IterationCallback {
 
 ceres::Solver::Options CeresOptions(const SolverOptions& options) {
   ceres::Solver::Options ceres_options;
-  // The same step at any thread count, which the Schur solvers do not give; only the cost, summed
-  // up by thread, differs in its last bits.
+  // This solver takes the same steps at any thread count, which the Schur solvers do not. Only the
+  // last bits of the cost differ, because the cost is summed per thread.
   ceres_options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   ceres_options.sparse_linear_algebra_library_type = PreferredSparseLibrary();
   ceres_options.max_num_iterations = options.max_iterations;
@@ -93,7 +93,7 @@ bool CeresLevelSolver::Solve(const ProblemBuilder& builder,
   timer.Restart();
   ceres::Solve(ceres_options, built.problem.get(), &ceres_summary);
   level.solve_time_s = timer.Seconds();
-  // The first entry is the start, not a step.
+  // The first entry is the initial state, not a step.
   level.iterations = std::max(0, static_cast<int>(ceres_summary.iterations.size()) - 1);
   level.initial_cost = ceres_summary.initial_cost;
   level.final_cost = ceres_summary.final_cost;

@@ -1,4 +1,4 @@
-// Solves one ProblemConfig with ceres::Solve: the reference.
+// Minimises one ProblemConfig with ceres::Solve; this is the reference for other solvers.
 #ifndef CERES_ED_SOLVER_CERES_LEVEL_SOLVER_H_
 #define CERES_ED_SOLVER_CERES_LEVEL_SOLVER_H_
 
@@ -6,7 +6,8 @@
 
 namespace ceres_ed {
 
-// Levenberg-Marquardt on SPARSE_NORMAL_CHOLESKY, with the best sparse library that Ceres has.
+// The Levenberg-Marquardt method of Ceres with SPARSE_NORMAL_CHOLESKY and the best sparse library
+// that Ceres has.
 class CeresLevelSolver final : public LevelSolver {
  public:
   bool Solve(const ProblemBuilder& builder,

@@ -1,4 +1,5 @@
-// Solves one ProblemConfig: what the strategies are made of.
+// The interface of a minimiser for one ProblemConfig; the strategies are built from such
+// minimisers.
 #ifndef CERES_ED_SOLVER_LEVEL_SOLVER_H_
 #define CERES_ED_SOLVER_LEVEL_SOLVER_H_
 
@@ -10,15 +11,15 @@
 
 namespace ceres_ed {
 
-// A minimiser for subproblems. It may keep what helps it with the next, similar one; one object
-// serves one thread at a time.
+// A minimiser for one part of a problem. It may keep data that help with the next, similar part.
+// One object serves one thread at a time.
 class LevelSolver {
  public:
   virtual ~LevelSolver() = default;
 
-  // Minimises the problem of `config` over `state` and appends to `summary->levels`;
-  // `summary->status` and `message` become this level's. Returns false when the level failed;
-  // `state` is then as it was. A level without anything variable converges at once.
+  // Minimises the problem of `config` over `state`. Appends an entry to `summary->levels`, and sets
+  // `summary->status` and `message` for this level. Returns false if the level failed; `state` is
+  // then unchanged. A level in which nothing is variable converges at once.
   virtual bool Solve(const ProblemBuilder& builder,
                      const ProblemConfig& config,
                      const SolverOptions& options,
@@ -26,10 +27,11 @@ class LevelSolver {
                      SolveSummary* summary) = 0;
 };
 
+// Returns the minimiser that uses `linear_solver`.
 std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver);
 
-// Sets the status to failed, and says why: by the residual that is at fault at `state`, or by
-// `otherwise` where none is.
+// Sets the status to failed, with a reason: the residual that cannot be evaluated at `state`, or
+// `otherwise` if there is none.
 void ExplainFailure(const ProblemBuilder& builder,
                     const DeformationState& state,
                     const std::string& otherwise,

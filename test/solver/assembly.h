@@ -1,4 +1,4 @@
-// The normal equations of a test problem, assembled in blocks and by Ceres.
+// Assembles the normal equations of a test problem in blocks and with Ceres.
 #ifndef CERES_ED_TEST_SOLVER_ASSEMBLY_H_
 #define CERES_ED_TEST_SOLVER_ASSEMBLY_H_
 
@@ -18,7 +18,7 @@
 
 namespace ceres_ed {
 
-// All energies of a test problem, each with its weight and loss.
+// Returns a builder with all energies of a test problem, each with its weight and loss.
 inline std::unique_ptr<ProblemBuilder> MakeBuilder(const TestProblem& problem,
                                                    const LossSpec& loss) {
   const EnergyRegistry registry = BuiltinEnergies();
@@ -71,7 +71,8 @@ inline Assembled AssembleInBlocks(const ProblemBuilder& builder,
   return assembled;
 }
 
-// The same from ceres::Problem::Evaluate, variable nodes in order, then rotation and translation.
+// Returns the same from ceres::Problem::Evaluate(): variable nodes in order, then rotation and
+// translation.
 inline Assembled AssembleWithCeres(const ProblemBuilder& builder,
                                    const ProblemConfig& config,
                                    DeformationState* state) {

@@ -1,4 +1,4 @@
-// The block solver against Ceres, and its parts against dense linear algebra.
+// Compares the block solver with Ceres, and its parts with dense linear algebra.
 #include <ceres_ed/solver/normal_equations/loss_correction.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/test_problem.h>
@@ -14,8 +14,8 @@
 namespace ceres_ed {
 namespace {
 
-// Whatever the loss, the corrected residuals have the gradient rho' J^T r of the robust cost; with
-// rho'' > 0 the matrix has Triggs' second-order term as well.
+// For any loss, the corrected residuals have the gradient rho' J^T r of the robust cost; with rho''
+// > 0 the matrix also has Triggs' second-order term.
 TEST(LossCorrection, HasTheGradientAndTriggsMatrixOfTheRobustCost) {
   constexpr int kRows = 3;
   constexpr int kColumns = 4;
@@ -71,7 +71,7 @@ TEST(BlockSolver, ReachesTheMinimumOfCeres) {
   }
 }
 
-// One object on a changing problem: new correspondences, other variable nodes, a larger graph.
+// One object solves a changing problem: new correspondences, other variable nodes, a larger graph.
 TEST(BlockSolver, ForgetsNothingAndKeepsNothingStale) {
   StrategyOptions options;
   options.mode = SolveMode::kTwoLevel;

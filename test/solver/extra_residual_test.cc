@@ -1,4 +1,4 @@
-// A prior in place of eliminated nodes, in the problems of both level solvers.
+// Tests a prior that replaces eliminated nodes, in the problems of both level solvers.
 #include <ceres_ed/solver/marginal/marginalization.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 
@@ -13,7 +13,7 @@
 namespace ceres_ed {
 namespace {
 
-// Six columns of three nodes, the first three PR; the last two columns are eliminated.
+// Six columns of three nodes. The first three columns are PR, and the last two are eliminated.
 class ExtraResidualTest : public ::testing::Test {
  protected:
   static TestProblemOptions Options() {
@@ -35,11 +35,12 @@ class ExtraResidualTest : public ::testing::Test {
     config_.eliminated_nodes = eliminated.variable_nodes;
     for (int j = 12; j < 18; ++j) config_.variable_nodes[j] = 0;
     config_.extra_residuals = {marginalization_.PriorResidual()};
-    // The prior is not at its linearisation point.
+    // The prior is evaluated away from its linearisation point.
     moved_ = RandomState(strip_.problem, 0.1, 8);
   }
 
-  // Cost, gradient and Gauss-Newton matrix by ceres::Problem, nodes in order, then the camera.
+  // Returns cost, gradient and Gauss-Newton matrix from ceres::Problem: nodes in order, then the
+  // camera.
   double AssembleWithCeres(Eigen::VectorXd* gradient, Eigen::MatrixXd* H) {
     const BuiltProblem built = strip_.builder.Build(config_, &moved_);
     ceres::Problem::EvaluateOptions options;
@@ -74,8 +75,8 @@ class ExtraResidualTest : public ::testing::Test {
       EXPECT_LT((gradient - expected_gradient).norm(), 1e-12 * expected_gradient.norm());
       const Eigen::MatrixXd H = DenseOf(structure, values);
       EXPECT_LT((H - expected_H).norm(), 1e-12 * expected_H.norm());
-      // Without the matrix to the bit; without the gradient there are no jets, which round their
-      // way.
+      // Without the matrix the cost has the same bits. Without the gradient no jets are used, which
+      // round differently.
       double other_cost = 0.0;
       Eigen::VectorXd other_gradient;
       ASSERT_TRUE(equations.EvaluateGradient(moved_, threads, &other_cost, &other_gradient));
@@ -94,7 +95,8 @@ class ExtraResidualTest : public ::testing::Test {
 };
 
 TEST_F(ExtraResidualTest, StandsInForWhatTouchesEliminatedNodes) {
-  // Rotation: one a node. Regularization: both ways along three rows and four columns.
+  // Rotation: one residual per node. Regularisation: both directions along three rows and four
+  // columns.
   constexpr int kKept = 12 + 2 * (3 * 3 + 4 * 2);
   const std::vector<SelectedResidual> selected = strip_.builder.Select(config_);
   ASSERT_EQ(static_cast<int>(selected.size()),

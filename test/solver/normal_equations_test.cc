@@ -1,4 +1,4 @@
-// The normal equations against Ceres.
+// Compares the normal equations with those of Ceres.
 #include "ceres_ed/solver/normal_equations/normal_equations.h"
 
 #include <ceres_ed/linear_algebra/block_cholesky.h>
@@ -15,7 +15,7 @@
 namespace ceres_ed {
 namespace {
 
-// Enough points and nodes for more than one part of the residuals.
+// Returns a problem with enough points and nodes for more than one task.
 TestProblem MakeLargeProblem(bool has_camera) {
   TestProblemOptions options;
   options.columns = 6;
@@ -27,7 +27,7 @@ TestProblem MakeLargeProblem(bool has_camera) {
   return MakeTestProblem(options);
 }
 
-// The node order of every third point turned round, and some points on fewer nodes.
+// Reverses the node order of every third point, and binds some points to fewer nodes.
 void MixBindings(TestProblem* problem) {
   for (std::size_t i = 0; i < problem->points.size(); ++i) {
     const Binding binding = problem->skinning[i];
@@ -61,8 +61,8 @@ TEST(NormalEquations, AgreeWithCeres) {
   }
 }
 
-// Of 6 x 3 nodes the first two columns of cells are seen: their nodes share points. All others
-// share edges alone.
+// On 6 x 3 nodes, the first two columns of cells are observed, so that their nodes share points.
+// All other nodes share only edges.
 TEST(NormalEquations, KnowWhichPairsShareTranslationsAlone) {
   TestProblemOptions options;
   options.observed_columns = 2;
@@ -87,7 +87,7 @@ TEST(NormalEquations, KnowWhichPairsShareTranslationsAlone) {
   }
 }
 
-// Points on 7 x 4 nodes that are few enough to have dual unknowns, and their equations.
+// Points on 7 x 4 nodes, few enough to get dual unknowns, and their equations.
 struct DualEquations {
   DualEquations() : problem(MakeTestProblem(Options())), builder(MakeBuilder(problem, kHuber)) {
     config = FullConfig(problem.graph.num_nodes(), false);
@@ -187,7 +187,7 @@ TEST(NormalEquations, AgreeWithCeresWhereThereAreManyPointsOfMixedBindings) {
   }
 }
 
-// The camera among nodes that are all held.
+// The camera is variable and all nodes are held.
 TEST(NormalEquations, AgreeWithCeresOnTheCameraAlone) {
   const TestProblem problem = MakeProblem(true);
   const auto builder = MakeBuilder(problem, {LossType::kWelsch, 0.05});
@@ -208,7 +208,8 @@ TEST(NormalEquations, AgreeWithCeresOnRobustPriors) {
               AssembleWithCeres(*builder, config, &state));
 }
 
-// Built anew on the same object, the equations of another problem are those of a new object.
+// Equations that are built again on the same object for another problem equal those of a new
+// object.
 TEST(NormalEquations, KeepNothingOfAnEarlierProblem) {
   const TestProblem large = MakeLargeProblem(true);
   const TestProblem small = MakeProblem(false);

@@ -1,4 +1,4 @@
-// Covariances against those of Ceres, and where there are none.
+// Compares covariances with those of Ceres, and tests cases in which there are none.
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/solver/covariance/state_covariance.h>
 #include <ceres_ed/solver/covariance/variance_factor.h>
@@ -20,7 +20,8 @@ namespace {
 
 constexpr double kTolerance = 1e-6;
 
-// The covariance of all nodes in order and of the camera, where there is one, from Ceres.
+// Returns the covariance of all nodes in order, and of the camera if there is one, computed by
+// Ceres.
 Eigen::MatrixXd CovarianceByCeres(const ProblemBuilder& builder, DeformationState state) {
   const ProblemConfig config = FullConfig(state.num_nodes(), builder.has_camera());
   const BuiltProblem built = builder.Build(config, &state);
@@ -36,7 +37,7 @@ Eigen::MatrixXd CovarianceByCeres(const ProblemBuilder& builder, DeformationStat
   options.algorithm_type = ceres::DENSE_SVD;
   ceres::Covariance covariance(options);
   EXPECT_TRUE(covariance.Compute(blocks, built.problem.get()));
-  // Symmetric, so that row-major is column-major.
+  // The matrix is symmetric, so row-major equals column-major.
   Eigen::MatrixXd Z(size, size);
   EXPECT_TRUE(covariance.GetCovarianceMatrixInTangentSpace(blocks, Z.data()));
   return Z;
@@ -53,7 +54,8 @@ StateCovariance CovarianceOf(const ProblemBuilder& builder,
 
 void ExpectNear(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected) {
   ASSERT_EQ(actual.rows(), expected.rows());
-  // Relative to the deviations of each entry's row and column, whatever their units.
+  // The difference is relative to the standard deviations of each entry's row and column, whatever
+  // their units.
   const Eigen::VectorXd root = expected.diagonal().cwiseSqrt();
   for (int r = 0; r < actual.rows(); ++r) {
     for (int c = 0; c < actual.cols(); ++c) {
@@ -62,7 +64,8 @@ void ExpectNear(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected) 
   }
 }
 
-// d point / d (all nodes, camera) by central differences; in the camera frame where `in_camera`.
+// Returns d point / d (all nodes, camera) by central differences; in the camera frame if
+// `in_camera`.
 Eigen::MatrixXd PointDerivative(const TestProblem& problem,
                                 const DeformationState& state,
                                 const Eigen::Vector3d& position,
@@ -111,7 +114,7 @@ TEST_P(AgainstCeres, HasTheCovarianceOfNodesCameraAndPoints) {
     EXPECT_EQ(covariance.camera_status(), ParameterStatus::kDetermined);
     ExpectNear(covariance.Camera(), Z.bottomRightCorner(6, 6));
   }
-  // Points with data and without, and one whose nodes share no residual.
+  // The points are points with data, points without, and one whose nodes share no residual.
   const int far[] = {0, 13, state.num_nodes() - 1};
   const double weights[] = {0.5, 0.3, 0.2};
   const std::size_t last = problem.points.size() - 1;
@@ -150,7 +153,7 @@ TEST(StateCovariance, IsTheSameAtAnyNumberOfThreadsAndWithPointsKnownAhead) {
   }
 }
 
-// A strip with data, and beside it three nodes that only each other's edges hold, and one alone.
+// A strip with data; beside it three nodes that only their common edges hold, and a single node.
 TEST(StateCovariance, ReportsNodesThatNothingDeterminesAndGetsTheOthersRight) {
   const TestProblem strip = MakeProblem(false);
   const std::unique_ptr<ProblemBuilder> strip_builder = MakeBuilder(strip, {});
@@ -188,7 +191,8 @@ TEST(StateCovariance, ReportsNodesWithoutDataAndWithoutPriors) {
   const int n = strip.problem.graph.num_nodes();
   const StateCovariance covariance = CovarianceOf(strip.builder, DeformationState(n));
   for (int j = 0; j < n; ++j) {
-    // Three rows of nodes; cells of the first two columns lie between columns 0, 1 and 2.
+    // There are three rows of nodes; the cells of the first two columns lie between columns 0, 1
+    // and 2.
     if (j / options.rows > 2) {
       EXPECT_EQ(covariance.status(j), ParameterStatus::kUndetermined);
     }
@@ -202,12 +206,12 @@ TEST(StateCovariance, ReportsAFreeGauge) {
   StripBuilder strip(options);
   const DeformationState state = RandomState(strip.problem, 0.05, 3);
   const int n = state.num_nodes();
-  // Camera and map may move as one.
+  // Camera and map can move as one.
   const StateCovariance free = CovarianceOf(strip.builder, state);
   EXPECT_EQ(free.undetermined().size(), std::size_t(n));
   EXPECT_EQ(free.camera_status(), ParameterStatus::kUndetermined);
   EXPECT_TRUE(free.Camera().array().isNaN().all());
-  // But not with one of them held.
+  // They cannot if one of them is held.
   ProblemConfig config = FullConfig(n, true);
   config.variable_nodes[0] = 0;
   const StatusOr<StateCovariance> held = StateCovariance::Compute(strip.builder, config, state, {});
@@ -216,7 +220,7 @@ TEST(StateCovariance, ReportsAFreeGauge) {
   EXPECT_EQ(held->status(0), ParameterStatus::kHeld);
   EXPECT_EQ(held->Node(0), Eigen::MatrixXd::Zero(kNodeSize, kNodeSize));
   EXPECT_GT(held->Camera().diagonal().minCoeff(), 0.0);
-  // Nor does anything hold the shape without data.
+  // Without data nothing determines the shape either.
   strip.builder.SetWeight(strip.data, 0.0);
   EXPECT_EQ(CovarianceOf(strip.builder, DeformationState(n)).undetermined().size(), std::size_t(n));
 }
@@ -232,7 +236,7 @@ TEST(StateCovariance, NamesAResidualThatCannotBeEvaluated) {
       << covariance.status().message();
 }
 
-// tr(Z J^T J) = tr(I) over all residuals; s0^2 is then the cost over the redundancy.
+// Over all residuals, tr(Z J^T J) = tr(I); s0^2 is then the cost divided by the redundancy.
 TEST(VarianceFactor, CountsEveryParameterOnce) {
   for (const bool has_camera : {false, true}) {
     const TestProblem problem = MakeProblem(has_camera);

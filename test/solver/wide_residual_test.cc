@@ -1,4 +1,4 @@
-// Residuals on many nodes at once, which the normal equations give dual unknowns.
+// Tests residuals on many nodes at once, to which the normal equations give dual unknowns.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
@@ -20,7 +20,8 @@ namespace {
 
 constexpr int kNumResiduals = 4;
 
-// r = |x|^2 a + B x - c over all parameters x of the nodes and the camera, with B of no structure.
+// r = |x|^2 a + B x - c over all parameters x of the nodes and the camera, where B has no
+// structure.
 class WideCost final : public ceres::CostFunction {
  public:
   WideCost(int num_nodes, bool has_camera) {
@@ -138,7 +139,7 @@ TEST(WideResidual, LeavesNodesApartThatShareNothingElse) {
   for (const BlockPair& pair : equations.BlockPairs()) {
     if (pair.row < num_nodes) ++num_node_pairs;
   }
-  // One of the two edges between neighbours.
+  // Counts one of the two directed edges between neighbours.
   EXPECT_EQ(num_node_pairs, wide.problem.graph.num_edges() / 2);
 }
 

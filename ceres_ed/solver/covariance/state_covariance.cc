@@ -19,7 +19,7 @@ namespace {
 constexpr int kCameraSize = 6;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Pairs of blocks that carry a point together.
+// Returns the pairs of blocks to which a common point is bound.
 std::vector<BlockPair> PairsOf(const Skinning& skinning, const std::vector<int>& block_of_node) {
   std::set<std::pair<int, int>> pairs;
   for (std::size_t p = 0; p < skinning.size(); ++p) {
@@ -42,8 +42,8 @@ Eigen::MatrixXd NotANumber(int rows) {
   return Eigen::MatrixXd::Constant(rows, rows, std::numeric_limits<double>::quiet_NaN());
 }
 
-// d(R p + T) / d(rotation, translation) where `rotated` = R p. The tangent space is that of
-// q' = [sin |d| d / |d|, cos |d|] q, a turn by twice d.
+// Returns d(R p + T) / d(rotation, translation) with `rotated` = R p. The tangent space is that of
+// q' = [sin |d| d / |d|, cos |d|] q, which is a rotation by 2 |d|.
 Eigen::MatrixXd CameraDerivative(const Eigen::Vector3d& rotated) {
   Eigen::MatrixXd J(3, kCameraSize);
   J << 0.0, 2.0 * rotated.z(), -2.0 * rotated.y(), 1.0, 0.0, 0.0, -2.0 * rotated.z(), 0.0,
@@ -70,7 +70,7 @@ struct StateCovariance::Impl {
   std::vector<ParameterStatus> status;
   ParameterStatus camera_status = ParameterStatus::kHeld;
   std::vector<int> undetermined;
-  // -1 where a node, or the camera, isn't variable.
+  // The block of each node and of the camera, or -1 if it is not variable.
   std::vector<int> block_of_node;
   int camera_block = -1;
   std::unique_ptr<const RegularizedInverse> inverse;
@@ -124,7 +124,7 @@ StatusOr<StateCovariance> StateCovariance::Compute(const ProblemBuilder& builder
     if (impl->block_of_node[j] >= 0) {
       impl->status[j] = status_of(impl->block_of_node[j]);
     } else if (config.variable_nodes[j] != 0) {
-      // Variable, and no residual touches it.
+      // The node is variable, but no residual depends on it.
       impl->status[j] = ParameterStatus::kUndetermined;
     }
     if (impl->status[j] == ParameterStatus::kUndetermined) impl->undetermined.push_back(j);
@@ -156,7 +156,7 @@ Eigen::MatrixXd StateCovariance::Impl::Propagate(const std::vector<BlockDerivati
   return inverse->Propagate(parts);
 }
 
-// Neither held nor of the problem.
+// Returns whether a node is neither held nor part of the problem.
 bool StateCovariance::Impl::IsAbsent(int node) const {
   return block_of_node[node] < 0 && status[node] != ParameterStatus::kHeld;
 }
@@ -166,7 +166,8 @@ bool StateCovariance::Impl::TouchesAbsent(const Binding& binding) const {
       binding.nodes, binding.nodes + binding.size, [this](int node) { return IsAbsent(node); });
 }
 
-// frame * w_j [x I, y I, z I, I] with (x, y, z) = position - g_j.
+// Returns the derivatives of a warped point (Eq. 1): frame * w_j [x I, y I, z I, I] with (x, y, z)
+// = position - g_j.
 std::vector<BlockDerivative> StateCovariance::Impl::PointParts(const Eigen::Vector3d& position,
                                                                const Binding& binding,
                                                                const Eigen::Matrix3d& frame) const {
@@ -268,7 +269,7 @@ bool StateCovariance::Residual(const SelectedResidual& residual,
   }
   if (sees_camera && impl_->camera_block >= 0) parts.push_back({impl_->camera_block, by_camera});
   covariance->setZero(rows, rows);
-  // What an entry lacks, the residual doesn't depend on.
+  // The residual does not depend on parameters whose entries are missing.
   if (!parts.empty()) impl_->inverse->PropagateSelected(parts, covariance);
   return true;
 }

@@ -1,4 +1,4 @@
-// How well a state is determined by the residuals that it minimises.
+// Computes how well a state is determined by the residuals that it minimises.
 #ifndef CERES_ED_SOLVER_COVARIANCE_STATE_COVARIANCE_H_
 #define CERES_ED_SOLVER_COVARIANCE_STATE_COVARIANCE_H_
 
@@ -15,39 +15,42 @@
 
 namespace ceres_ed {
 
+// Options of StateCovariance::Compute().
 struct CovarianceOptions {
-  // Bindings of points that Point() will be asked for: fast for these, exact for all. Looked at by
-  // Compute() alone.
+  // Bindings of points for which Point() will be called. The results are exact for all points, and
+  // faster for these. Only Compute() reads them. Default: none.
   const Skinning* skinning = nullptr;
-  // The result doesn't depend on it, >= 1.
+  // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
 };
 
-// What the residuals say about a node or the camera.
+// What the residuals determine about a node or the camera.
 enum class ParameterStatus {
+  // The residuals determine it.
   kDetermined,
-  // Not variable: known, with no variance.
+  // It is not variable and therefore known, with zero variance.
   kHeld,
-  // Some direction of it changes no residual, alone or together with others: nothing observes it
-  // and no prior holds it, or all of the problem may move as one (a free gauge).
+  // A change in some direction changes no residual, alone or together with other parameters:
+  // nothing observes it and no prior determines it, or the whole problem can move as one (a free
+  // gauge).
   kUndetermined,
-  // Not of this problem (ProblemConfig::eliminated_nodes).
+  // It is not part of this problem (ProblemConfig::eliminated_nodes).
   kEliminated,
 };
 
-// (J^T J)^-1 of a problem at a state, with J the Jacobian of its residuals as Gauss-Newton has it:
-// times the roots of their weights, corrected for their losses as Ceres does. It equals that of
-// ceres::Covariance where that exists.
+// (J^T J)^-1 of a problem at a state, where J is the Gauss-Newton Jacobian of its residuals:
+// multiplied by the square roots of their weights, and corrected for their losses as in Ceres. It
+// equals the result of ceres::Covariance where that exists.
 //
-// It is the covariance of the state when every weighted residual has variance 1 and is independent
-// of the others, priors among them, and when the problem is linear about the state for as far as
-// its deviations go. Where the weights are right up to a common factor, multiply by an estimate of
-// the variance factor (solver/covariance/variance_factor.h).
+// It is the covariance of the state under two assumptions: every weighted residual, also of priors,
+// has variance 1 and is independent of the others; and the problem is linear around the state over
+// the range of the deviations. If the weights are correct up to a common factor, multiply the
+// covariance by an estimate of the variance factor (solver/covariance/variance_factor.h).
 class StateCovariance {
  public:
-  // The problem of `config` at `state`, which should be a minimum of it. Error: a residual that
-  // can't be evaluated, named by the builder. A problem without full rank is none.
-  // The builder's graph must outlive the result.
+  // Returns the covariance for the problem of `config` at `state`, which should be a minimum of the
+  // problem. It is an error if a residual cannot be evaluated; the builder names it. A problem
+  // without full rank is not an error. The builder's graph must outlive the result.
   static StatusOr<StateCovariance> Compute(const ProblemBuilder& builder,
                                            const ProblemConfig& config,
                                            const DeformationState& state,
@@ -57,32 +60,36 @@ class StateCovariance {
   StateCovariance& operator=(StateCovariance&&) noexcept;
   ~StateCovariance();
 
+  // Returns what the residuals determine about a node.
   ParameterStatus status(int node) const;
-  // kHeld where there is no camera.
+  // Returns the same for the camera; kHeld if there is no camera.
   ParameterStatus camera_status() const;
-  // Nodes that are kUndetermined, ascending.
+  // Returns the nodes that are kUndetermined, in ascending order.
   const std::vector<int>& undetermined() const;
 
-  // All functions below: NaN where one of the parameters that matter is undetermined or eliminated,
-  // zero where all are held. From several threads at once, too.
+  // All functions below return NaN if one of the parameters involved is undetermined or eliminated,
+  // and zero if all of them are held. They may be called from several threads at once.
 
-  // 12 x 12, in the order of cost_functions/node_parameters.h.
+  // Returns the covariance of a node, 12 x 12, in the order of cost_functions/node_parameters.h.
   Eigen::MatrixXd Node(int node) const;
 
-  // 6 x 6: rotation in the tangent space of ceres::EigenQuaternionManifold (a rotation vector's
-  // half, in the camera frame), then translation.
+  // Returns the covariance of the camera, 6 x 6: the rotation in the tangent space of
+  // ceres::EigenQuaternionManifold (half a rotation vector, in the camera frame), then the
+  // translation.
   Eigen::MatrixXd Camera() const;
 
-  // Of the warped point of `position` (Eq. 1 without the camera), map frame, squared map units.
-  // `binding` is that of the point at rest.
+  // Returns the covariance of the warped point of `position` (Eq. 1 without the camera) in the map
+  // frame, in squared map units. `binding` is the binding of the point at rest.
   Eigen::Matrix3d Point(const Eigen::Vector3d& position, const Binding& binding) const;
 
-  // The same in the camera frame, with what the camera adds.
+  // Returns the covariance of the point in the camera frame, including the contribution of the
+  // camera.
   Eigen::Matrix3d PointInCamera(const Eigen::Vector3d& position, const Binding& binding) const;
 
-  // J (J^T J)^-1 J^T of one residual, as the problem weighs it at this state: the covariance of
-  // what the state predicts for it, whose trace is how many parameters the residual is worth. Held
-  // blocks add nothing. False when its cost function fails.
+  // Computes J (J^T J)^-1 J^T of one residual with its weight in the problem at this state. This is
+  // the covariance of the prediction of the state for the residual, and its trace is the number of
+  // parameters that the residual determines. Held blocks contribute nothing. Returns false if the
+  // cost function fails.
   bool Residual(const SelectedResidual& residual,
                 const LossSpec& loss,
                 Eigen::MatrixXd* covariance) const;

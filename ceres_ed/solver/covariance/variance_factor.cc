@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// Adds what one residual has; false when it can't be evaluated.
+// Adds the contribution of one residual. Returns false if the residual cannot be evaluated.
 bool AddResidual(const SelectedResidual& residual,
                  const LossSpec& loss,
                  const DeformationGraph& graph,
@@ -53,7 +53,8 @@ StatusOr<VarianceFactor> EstimateVarianceFactor(const ProblemBuilder& builder,
       residuals.push_back(residual);
     }
   }
-  // One a residual, so that the sum has the same order at any number of threads.
+  // Each residual has its own part, so that the order of the sum does not depend on the number of
+  // threads.
   std::vector<VarianceFactor> parts(residuals.size());
   std::atomic<bool> ok{true};
   ParallelFor(num_threads, static_cast<int>(residuals.size()), [&](int begin, int end) {

@@ -1,4 +1,4 @@
-// The variance of the residuals of a fit, from what is left of them.
+// Estimates the variance of the residuals of a fit from their values at the minimum.
 #ifndef CERES_ED_SOLVER_COVARIANCE_VARIANCE_FACTOR_H_
 #define CERES_ED_SOLVER_COVARIANCE_VARIANCE_FACTOR_H_
 
@@ -11,13 +11,13 @@
 
 namespace ceres_ed {
 
-// The variance of unit weight of least squares: with r_i the residuals of some terms, w_i their
-// weights and rho' what their losses leave of these,
+// The variance of unit weight in least squares. With r_i the residuals of some terms, w_i their
+// weights and rho'_i the factors by which their losses reduce these weights,
 //   s0^2 = sum_i w_i rho'_i |r_i|^2 / (sum_i rho'_i rows_i - sum_i tr(J_i Z J_i^T))
-// the denominator being the number of rows, each counted as far as its loss does, less the
-// parameters that they determine.
+// The denominator is the number of rows, each counted with the factor of its loss, minus the number
+// of parameters that they determine.
 struct VarianceFactor {
-  // NaN where `redundancy` isn't positive.
+  // s0^2, or NaN if redundancy() is not positive.
   double value = 0.0;
   // sum_i w_i rho'_i |r_i|^2.
   double squared_residuals = 0.0;
@@ -29,9 +29,9 @@ struct VarianceFactor {
   double redundancy() const { return rows - parameters; }
 };
 
-// Of the residuals of `terms` in the problem of `config`, which `covariance` is of. Terms left out
-// count as known to be right. The result doesn't depend on the number of threads. Error: a residual
-// that can't be evaluated.
+// Returns the variance factor of the residuals of `terms` in the problem of `config`, whose
+// covariance is `covariance`. Other terms are assumed to be weighted correctly. The result does not
+// depend on the number of threads. It is an error if a residual cannot be evaluated.
 StatusOr<VarianceFactor> EstimateVarianceFactor(const ProblemBuilder& builder,
                                                 const ProblemConfig& config,
                                                 const DeformationState& state,

@@ -8,17 +8,18 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kRow = GroupSums::kRow;
-// Points whose rows of products are formed at once: they fit into the nearest cache.
+// The number of points whose rows of products are formed at once; they fit into the first-level
+// cache.
 constexpr int kChunk = 32;
 
-// Lower triangles row by row.
+// Indices into lower triangles that are stored row by row.
 constexpr int kMoment[3][3] = {{0, 1, 3}, {1, 2, 4}, {3, 4, 5}};
 constexpr int kLever[4][4] = {{0, 1, 3, 6}, {1, 2, 4, 7}, {3, 4, 5, 8}, {6, 7, 8, 9}};
 
-// Eight numbers that the compiler keeps in as many registers as the machine needs for them.
+// Eight numbers, which the compiler keeps in as many registers as the processor needs for them.
 using Vector8 = double __attribute__((vector_size(64)));
 
-// sum += sum_p weights[p stride] rows[p], of rows of kRow.
+// Computes sum += sum_p weights[p stride] rows[p] for rows of kRow values.
 CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddWeightedRows(
     int count, const double* rows, const double* weights, int stride, double* sum) {
@@ -45,7 +46,7 @@ void AddWeightedRows(
   }
 }
 
-// (h h^T) (x) M of each point.
+// Computes (h h^T) (x) M of each point.
 CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void FormPairRows(int count, const double* levers, const double* moments, double* rows) {
   for (int p = 0; p < count; ++p) {
@@ -63,7 +64,7 @@ void FormPairRows(int count, const double* levers, const double* moments, double
   }
 }
 
-// M and [p]_x M, times each entry of h, of each point.
+// Computes M and [p]_x M of each point, multiplied by each entry of h.
 CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void FormCameraRows(
     int count, const double* levers, const double* moments, const double* warped, double* rows) {
@@ -88,8 +89,8 @@ void FormCameraRows(
   }
 }
 
-// The camera's own block needs but the sums of what its rows with the nodes are made of: the last
-// of the four levers is 1.
+// Adds the camera's own block. It needs only the sums of the rows that the camera has with the
+// nodes, because the last of the four lever entries is 1.
 CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddCameraMoments(int count, const double* rows, const double* warped, GroupSums* sums) {
   double totals[GroupSums::kCameraMoments] = {};
@@ -98,7 +99,7 @@ void AddCameraMoments(int count, const double* rows, const double* warped, Group
     const double* entries = rows + n * kRow + 3 * GroupSums::kCameraMoments;
     const double* p = warped + 3 * n;
     for (int i = 0; i < GroupSums::kCameraMoments; ++i) totals[i] += entries[i];
-    // Rows of [p]_x M, times [p]_x^T: each crossed with p from the other side.
+    // Multiplies the rows of [p]_x M by [p]_x^T: each row is crossed with p from the other side.
     for (int i = 0; i < 3; ++i) {
       const double* row = entries + 6 + 3 * i;
       turned[3 * i] += p[1] * row[2] - p[2] * row[1];
@@ -194,7 +195,8 @@ void AddGroupProducts(const LinearizedPoints& points, GroupSums* sums) {
   }
 }
 
-// Of lever pairs (i, j): (h + s)_i (h + t)_j, the last entries of h, s and t being 1, 0 and 0.
+// Computes the sums of (h + s)_i (h + t)_j for pairs of lever entries (i, j). The last entries of
+// h, s and t are 1, 0 and 0.
 CERES_ED_FOR_EACH_MACHINE_WITH_AVX512
 void AddPairBlock(const double* sums,
                   const double* row_shift,
@@ -223,8 +225,8 @@ void AddPairBlock(const double* sums,
   }
 }
 
-// With M of the map frame, [R_c p]_x = R_c [p]_x R_c^T: the turning rows are 2 R_c [p]_x M and the
-// shifting ones R_c M.
+// With M in the map frame, [R_c p]_x = R_c [p]_x R_c^T. The rows of the rotation are therefore 2
+// R_c [p]_x M, and those of the translation are R_c M.
 void AddCameraBlock(const double* sums,
                     const double* column_shift,
                     const Eigen::Matrix3d& R_c,

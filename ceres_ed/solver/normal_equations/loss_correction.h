@@ -1,4 +1,4 @@
-// Robust losses in Gauss-Newton.
+// Robust losses in the Gauss-Newton method.
 #ifndef CERES_ED_SOLVER_NORMAL_EQUATIONS_LOSS_CORRECTION_H_
 #define CERES_ED_SOLVER_NORMAL_EQUATIONS_LOSS_CORRECTION_H_
 
@@ -8,12 +8,13 @@
 
 namespace ceres_ed {
 
-// Scales residuals and Jacobian so that their plain squares have the gradient, and the Gauss-Newton
-// matrix, of the robust cost (Triggs et al. 2000, as in Ceres' corrector). A concave loss keeps its
-// first-order part alone: its second-order part would make the matrix indefinite.
+// Scales residuals and Jacobian so that their plain squares have the gradient and the Gauss-Newton
+// matrix of the robust cost (Triggs et al. 2000, as in the corrector of Ceres). For a concave loss
+// only the first-order part is used, because the second-order part would make the matrix
+// indefinite.
 class LossCorrection {
  public:
-  // `rho` is the loss and its first two derivatives at `squared_norm` = |r|^2.
+  // `rho` contains the loss and its first two derivatives at `squared_norm` = |r|^2.
   LossCorrection(double squared_norm, const double rho[3])
       : sqrt_rho1_(std::sqrt(rho[1])), residual_scale_(sqrt_rho1_) {
     if (squared_norm == 0.0 || rho[2] <= 0.0) return;
@@ -22,7 +23,8 @@ class LossCorrection {
     alpha_per_squared_norm_ = alpha / squared_norm;
   }
 
-  // `residuals` as they came from the cost function; `jacobian` is row-major, rows x columns.
+  // Corrects the Jacobian in place. `residuals` are the uncorrected values of the cost function;
+  // `jacobian` is row-major, rows x columns.
   void CorrectJacobian(const double* residuals, int rows, int columns, double* jacobian) const {
     if (alpha_per_squared_norm_ != 0.0) {
       const Eigen::Map<const Eigen::VectorXd> r(residuals, rows);
@@ -34,6 +36,7 @@ class LossCorrection {
     for (int i = 0; i < rows * columns; ++i) jacobian[i] *= sqrt_rho1_;
   }
 
+  // Corrects the residuals in place; call it after CorrectJacobian().
   void CorrectResiduals(int rows, double* residuals) const {
     for (int i = 0; i < rows; ++i) residuals[i] *= residual_scale_;
   }

@@ -13,7 +13,7 @@ namespace {
 constexpr int kRotationTangent = 3;
 constexpr int kCameraTangent = 6;
 
-// The quadratic of a residual that touches nothing but nodes, else null.
+// Returns the quadratic cost of a residual that depends on nodes only, else null.
 const QuadraticCost* AsNodeQuadratic(const SelectedResidual& residual) {
   for (int i = 0; i < residual.num_blocks; ++i) {
     if (residual.blocks[i].kind != BlockRef::Kind::kNode) return nullptr;
@@ -21,7 +21,8 @@ const QuadraticCost* AsNodeQuadratic(const SelectedResidual& residual) {
   return dynamic_cast<const QuadraticCost*>(residual.cost);
 }
 
-// Whether a residual depends on the affine matrix of its `i`-th block; true where that isn't known.
+// Returns whether a residual depends on the affine matrix of its `i`-th block; true if this is not
+// known.
 bool TouchesAffine(const SelectedResidual& residual, int i) {
   if (residual.store == nullptr || residual.store->form() != ResidualStore::Form::kEdge)
     return true;

@@ -1,4 +1,4 @@
-// The Gauss-Newton normal equations of a subproblem, assembled in blocks.
+// The Gauss-Newton normal equations of a problem or of a part of it, assembled in blocks.
 #ifndef CERES_ED_SOLVER_NORMAL_EQUATIONS_NORMAL_EQUATIONS_H_
 #define CERES_ED_SOLVER_NORMAL_EQUATIONS_NORMAL_EQUATIONS_H_
 
@@ -18,23 +18,29 @@
 
 namespace ceres_ed {
 
-// Residuals couple the affine parts of their nodes. Dual unknowns y in place of their products keep
-// these apart (see BlockCholesky), with J the Jacobian of the residuals:
+// The size of a dual block, and whether residuals get dual unknowns.
+//
+// A residual couples the affine parts of all its nodes. Dual unknowns y keep these parts separate
+// (see BlockCholesky). With J the Jacobian of the residuals,
 //   [H J^T; J -I] [x; y] = [b; 0]  <=>  (H + J^T J) x = b
-// That pays where points are few, and for a residual on many nodes at once, such as a volume, which
-// would join each of them to all others.
+// This saves time if there are few points, and for a residual on many nodes at once, such as a
+// volume, which would otherwise couple each of its nodes to all others.
 inline constexpr int kDualSize = 3;
 enum class DualResiduals { kNever, kWhereTheyPay };
 
-// Unknowns: one block of 12 a variable node, in the order of the nodes, then one of 6 for a
-// variable camera (rotation in the tangent space of ceres::EigenQuaternionManifold, then
-// translation). Builder and config must outlive this, and their residuals stay as they are.
+// The normal equations of a problem.
 //
-// Residuals are taken by their form: points by the nodes that carry them, edges and rotations in
-// closed form where they have no loss, all others by their Jacobians. They are dealt out to parts,
-// strips of the graph that are the same at any number of threads: what one part alone touches it
-// sums up in place, what it shares with others in a place of its own, and these are added up at the
-// end.
+// The unknowns are one block of 12 per variable node, in the order of the nodes, then one block of
+// 6 if the camera is variable (the rotation in the tangent space of ceres::EigenQuaternionManifold,
+// then the translation). The builder and the config must outlive this object, and their residuals
+// must not change.
+//
+// Residuals are treated by their form: points are grouped by the nodes to which they are bound;
+// edges (E_reg, Eq. 6) and rotations (E_rot, Eq. 4 and 5) have closed forms if they have no loss;
+// all others are treated through their Jacobians. The residuals are divided among tasks, which are
+// strips of the graph that do not depend on the number of threads. A task adds to an entry in place
+// if no other task uses the entry. For shared entries each task has separate memory, which is added
+// up at the end.
 class NormalEquations {
  public:
   NormalEquations() = default;
@@ -47,12 +53,12 @@ class NormalEquations {
     Build(builder, residuals, variable_nodes);
   }
 
-  // Takes the problem of `config`; what was there is gone, its memory is kept.
+  // Takes the problem of `config` and replaces the previous problem, whose memory is reused.
   void Build(const ProblemBuilder& builder,
              const ProblemConfig& config,
              DualResiduals dual_residuals = DualResiduals::kNever);
-  // Takes some residuals of the builder alone, with the blocks in the order of `variable_nodes`;
-  // the camera is held.
+  // Takes only some residuals of the builder, with the blocks in the order of `variable_nodes`; the
+  // camera is constant.
   void Build(const ProblemBuilder& builder,
              const std::vector<SelectedResidual>& residuals,
              const std::vector<int>& variable_nodes);
@@ -60,55 +66,58 @@ class NormalEquations {
   int num_variable_nodes() const { return static_cast<int>(variable_nodes_.size()); }
   const std::vector<int>& variable_nodes() const { return variable_nodes_; }
   bool camera_variable() const { return camera_variable_; }
-  // Dual blocks, of points (one each, or none) and then of wide residuals: the last ones. Their
-  // rows of the gradient are zero.
+  // Returns the number of dual blocks, which come last: first those of points (one per point, or
+  // none), then those of wide residuals. Their rows of the gradient are zero.
   int num_dual() const { return num_dual_; }
-  // Rows of each block.
+  // Returns the number of rows of each block.
   std::vector<int> BlockSizes() const;
-  // Pairs of blocks that share a residual, by column and then row, without repetition.
+  // Returns the pairs of blocks that share a residual, sorted by column and then by row, without
+  // repetition.
   std::vector<BlockPair> BlockPairs() const;
 
-  // Fixes where each residual's products go. `structure` outlives this. False, and nothing is
-  // fixed, when it lacks one of BlockPairs(), or the affine part of one.
+  // Determines where the products of each residual are added. `structure` must outlive this object.
+  // Returns false, and sets no structure, if `structure` lacks one of BlockPairs() or its affine
+  // part.
   bool SetStructure(const BlockStructure* structure);
 
-  // Writes cost = sum of rho(|r|^2) / 2, values = J^T J in the layout of the structure (diagonal
-  // blocks in full) and gradient = J^T r, with r and J corrected for the loss as Ceres does. False
-  // when a cost function fails or returns something that isn't finite.
+  // Computes cost = sum of rho(|r|^2) / 2, values = J^T J in the layout of the structure (diagonal
+  // blocks in full) and gradient = J^T r. r and J are corrected for the loss as in Ceres. Returns
+  // false if a cost function fails or returns a value that is not finite.
   bool Evaluate(const DeformationState& state,
                 int num_threads,
                 double* cost,
                 std::vector<double>* values,
                 Eigen::VectorXd* gradient) const;
 
-  // The cost and its gradient.
+  // Computes the cost and its gradient.
   bool EvaluateGradient(const DeformationState& state,
                         int num_threads,
                         double* cost,
                         Eigen::VectorXd* gradient) const;
 
-  // The cost alone.
+  // Computes the cost only.
   bool EvaluateCost(const DeformationState& state, int num_threads, double* cost) const;
 
-  // state + delta, on the camera's manifold. `delta` has the layout of the unknowns.
+  // Computes state + delta, on the manifold of the camera. `delta` has the layout of the unknowns.
   void Plus(const Eigen::VectorXd& delta, DeformationState* state) const;
 
-  // The Euclidean norm of all variable parameters, as Ceres takes it for its tolerance.
+  // Returns the Euclidean norm of all variable parameters, which Ceres uses for its parameter
+  // tolerance.
   double ParameterNorm(const DeformationState& state) const;
 
  private:
-  // A part of a residual's Jacobian: `width` columns from `column` go to rows `offset` on of
-  // `block`.
+  // A part of a residual's Jacobian: `width` columns from `column` on belong to the rows from
+  // `offset` on of `block`.
   struct Part {
     int block = -1;
     int offset = 0;
     int width = 0;
     int column = 0;
-    // Whether more than the translation of a node enters.
+    // Whether the part depends on more than the translation of a node.
     bool affine = true;
   };
-  // A residual block that has no form of its own, or that one of nodes without a loss of which the
-  // square of the Jacobian is known.
+  // A residual block without a closed form. If it is a quadratic cost on nodes without a loss,
+  // `quadratic` gives its Hessian directly.
   struct Item {
     SelectedResidual residual;
     std::shared_ptr<const ceres::CostFunction> cost;
@@ -116,16 +125,16 @@ class NormalEquations {
     int width = 0;
     int first_part = 0;
     int num_parts = 0;
-    // Of parts a >= b: first_slot + a (a + 1) / 2 + b. All slots are in this order. With dual
-    // blocks those of (a, a) come first, and then, dual block by dual block, those with each part.
+    // The slot of parts a >= b is first_slot + a (a + 1) / 2 + b. With dual blocks the slots of (a,
+    // a) come first, followed by the slots of each dual block with each part.
     int first_slot = 0;
     int first_dual = 0;
     int num_dual = 0;
 
-    // Doubles that the item's linearisation takes.
+    // Returns the number of doubles that the linearisation of the item needs.
     int LinearizationSize() const;
   };
-  // E_reg and E_rot. A block is -1 where its node is held.
+  // A residual of E_reg (Edge) or E_rot (Rotation). A block is -1 if its node is constant.
   struct Edge {
     const RegularizationCost* cost = nullptr;
     double weight = 1.0;
@@ -139,25 +148,25 @@ class NormalEquations {
     int block = -1;
     int slot = 0;
   };
-  // Two blocks that a residual joins, and the entry of the structure; row -1 where one is held. A
-  // diagonal slot comes with its rows of the gradient.
+  // Two blocks that a residual couples, and their entry in the structure; the row is -1 if one of
+  // them is constant. A diagonal slot also stands for its rows of the gradient.
   struct Slot {
     int row = -1;
     int column = -1;
     bool affine = true;
     int entry = -1;
-    // Where its values, and its part of the gradient, go: into those of the structure, or, where
-    // other parts add to the entry too, num_values() + the place in `shared`.
+    // Where its values, and its part of the gradient, are added: an offset into the values of the
+    // structure, or, if other tasks use the same entry, num_values() plus the offset in `shared`.
     std::ptrdiff_t target = 0;
   };
-  // What goes from `shared` into an entry.
+  // A part of `shared` that is added to an entry.
   struct Share {
     int entry = -1;
     int row = -1;
     int column = -1;
     std::ptrdiff_t place = 0;
   };
-  // One of the tasks that the residuals are dealt out to.
+  // One of the tasks among which the residuals are divided.
   struct Task {
     std::vector<int> groups;
     std::vector<int> edges;
@@ -168,7 +177,7 @@ class NormalEquations {
       for (std::vector<int>* list : {&groups, &edges, &rotations, &items}) list->clear();
     }
   };
-  // Where sums go; values, and gradient, too, may be null.
+  // Where the sums are stored. `values` may be null, and so may `gradient`.
   struct Sums {
     double* values = nullptr;
     double* gradient = nullptr;
@@ -177,7 +186,7 @@ class NormalEquations {
   struct ItemScratch;
   struct PointScratch;
 
-  // Building.
+  // Functions that build the equations.
   void Clear();
   void AddResiduals(const ProblemBuilder& builder, const std::vector<SelectedResidual>& residuals);
   void AddItem(const SelectedResidual& residual, const DeformationGraph& graph);
@@ -202,10 +211,10 @@ class NormalEquations {
   int DiagonalSlot(int group, int node) const;
   bool VariesCamera(const PointGroup& group) const { return group.has_camera && camera_variable_; }
 
-  // Evaluating. `sums.gradient` is null where the cost alone is wanted.
+  // Functions that evaluate the equations. `sums.gradient` is null if only the cost is computed.
   double* Values(int slot, const Sums& sums) const;
   double* Gradient(int slot, const Sums& sums) const;
-  // Null where there is none.
+  // Returns the loss of a term, or null if it has none.
   const ceres::LossFunction* Loss(int term) const {
     return term < 0 ? nullptr : losses_[term].get();
   }
@@ -276,12 +285,13 @@ class NormalEquations {
 
   std::vector<int> variable_nodes_;
   bool camera_variable_ = false;
-  // Of points alone, and all.
+  // The number of dual blocks of points, and of all dual blocks.
   int num_dual_points_ = 0;
   int num_dual_ = 0;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
   PointGroups points_;
-  // First slot of each group, and, in the order of their nodes, blocks and positions.
+  // The first slot of each group; then, in the order of the groups' nodes, their blocks and
+  // positions.
   std::vector<int> group_slots_;
   std::vector<int> group_blocks_;
   std::vector<Eigen::Vector3d> group_positions_;
@@ -297,9 +307,9 @@ class NormalEquations {
   const BlockStructure* structure_ = nullptr;
   std::vector<Share> shares_;
   std::size_t shared_size_ = 0;
-  // One object serves one thread at a time.
+  // This buffer is the reason why one object serves one thread at a time.
   mutable std::vector<double> shared_;
-  // While building.
+  // Used only while building.
   std::vector<SelectedResidual> selected_;
   std::vector<int> block_of_node_;
 };

@@ -1,4 +1,4 @@
-// Points and wide residuals of NormalEquations that have dual unknowns.
+// The part of NormalEquations that treats points and wide residuals with dual unknowns.
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <algorithm>
@@ -8,17 +8,19 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kAffineSize = kNodeTranslationOffset;
-// Duals pay where they are fewer than this share of the affine parameters that they keep apart.
+// Dual unknowns are used for points if there are fewer of them than this share of the affine
+// parameters that they keep separate.
 constexpr double kFewDuals = 0.7;
-// A residual on so many nodes and camera parts is wide; its own rows are to be fewer than this
-// share of theirs.
+// A residual is wide if it depends on at least so many nodes and camera parts, and if its own rows
+// are fewer than this share of theirs.
 constexpr int kWideParts = 24;
 constexpr double kFewRows = 0.25;
-// Rounding of moments.
+// The rounding error of the moments.
 constexpr double kRankTolerance = 1e-15;
 
-// Q with Q^T Q = M, rows of zeros where the rank is lower. Pivoted: every row starts from the
-// largest entry left on the diagonal. `moments`: lower triangle row by row.
+// Returns Q with Q^T Q = M; if the rank is lower, the last rows are zero. The factorisation is
+// pivoted: each row starts from the largest remaining entry of the diagonal. `moments` is the lower
+// triangle of M row by row.
 Eigen::Matrix3d SquareRoot(const double* moments) {
   Eigen::Matrix3d M;
   M << moments[0], moments[1], moments[3], moments[1], moments[2], moments[4], moments[3],
@@ -80,7 +82,7 @@ void NormalEquations::AddDualItemSlots(const Item& item) {
   }
 }
 
-// Dual rows are those of the Jacobian; the last block may have rows of zeros behind them.
+// The dual rows are those of the Jacobian; the last dual block may be filled up with rows of zeros.
 void NormalEquations::SpreadDualItem(const Item& item,
                                      const double* linearization,
                                      const Sums& sums) const {
@@ -107,7 +109,7 @@ void NormalEquations::SpreadDualItem(const Item& item,
   }
 }
 
-// Behind those of the nodes: of each point, those with its nodes.
+// Adds the slots of each point with its nodes; they follow the slots of the nodes themselves.
 void NormalEquations::AddDualSlots(const PointGroup& group) {
   const int* blocks = &group_blocks_[group.first_node];
   for (int p = 0; p < group.num_points; ++p) {
@@ -120,7 +122,7 @@ int NormalEquations::DiagonalSlot(int group, int node) const {
   return group_slots_[group] + (num_dual_points_ > 0 ? node : node * (node + 1) / 2 + node);
 }
 
-// Dual rows are w_a [v - g_a; 1]^T (x) Q.
+// The dual rows are w_a [v - g_a; 1]^T (x) Q.
 void NormalEquations::SpreadDuals(int index, const double* moments, const Sums& sums) const {
   const PointGroup& group = points_.groups()[index];
   const Eigen::Vector3d* positions = &group_positions_[group.first_node];

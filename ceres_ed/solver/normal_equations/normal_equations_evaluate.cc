@@ -1,4 +1,4 @@
-// How NormalEquations goes through its residuals.
+// The part of NormalEquations that evaluates all residuals.
 #include <ceres_ed/linear_algebra/double_buffer.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/util/describe_throw.h>
@@ -54,8 +54,8 @@ void NormalEquations::AddShares(const Sums& sums) const {
   }
 }
 
-// The tasks and the order in which their sums are added up are the same at any number of threads,
-// and so are the bits.
+// The tasks, and the order in which their sums are added, do not depend on the number of threads.
+// The result therefore has the same bits at any number of threads.
 bool NormalEquations::EvaluateTasks(const DeformationState& state,
                                     int num_threads,
                                     double* cost,
@@ -85,7 +85,8 @@ bool NormalEquations::EvaluateTasks(const DeformationState& state,
   ParallelFor(num_threads, num_tasks, [&](int begin, int end) {
     for (int t = begin; t < end; ++t) {
       bool valid = false;
-      // Functors are somebody else's; ProblemBuilder::CheckResiduals finds out which one threw.
+      // Functors are user code and may throw; ProblemBuilder::CheckResiduals() determines which one
+      // threw.
       const std::string thrown =
           DescribeThrow([&] { valid = AddTask(tasks_[t], state, sums, &costs[t]); });
       if (!valid || !thrown.empty()) ok = false;

@@ -1,4 +1,4 @@
-// Residuals without a form of their own in NormalEquations.
+// The part of NormalEquations that treats residuals without a closed form.
 #include <ceres_ed/solver/normal_equations/block_products.h>
 #include <ceres_ed/solver/normal_equations/loss_correction.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
@@ -21,8 +21,9 @@ using ConstRowMajorMap =
 
 }  // namespace
 
-// Buffers of one task. A linearisation is corrected for the loss; it is the residuals, then the
-// parts of the Jacobian one after the other, each row-major, and of a quadratic its gradient.
+// The buffers of one task. A linearisation is corrected for the loss. It consists of the residuals
+// and then the parts of the Jacobian one after the other, each row-major; for a quadratic cost it
+// is the gradient.
 struct NormalEquations::ItemScratch {
   explicit ItemScratch(const NormalEquations& equations)
       : linearization(equations.max_linearization_),
@@ -38,7 +39,7 @@ struct NormalEquations::ItemScratch {
   std::vector<double*> jacobians;
 };
 
-// Adds the robust, weighted cost of a residual; false when it isn't finite.
+// Adds the robust, weighted cost of a residual. Returns false if it is not finite.
 bool NormalEquations::ApplyLoss(int term,
                                 double weight,
                                 int num_residuals,
@@ -108,7 +109,7 @@ bool NormalEquations::LinearizeItem(const Item& item,
   return true;
 }
 
-// Adds J_a^T r of one part; `slot` is that of its diagonal block.
+// Adds J_a^T r of one part to the gradient; `slot` is the slot of its diagonal block.
 void NormalEquations::AccumulateGradient(
     const Item& item, int part, int slot, const double* linearization, const Sums& sums) const {
   const Part& part_a = parts_[item.first_part + part];

@@ -1,4 +1,4 @@
-// Observations in NormalEquations.
+// The part of NormalEquations that treats observed points.
 #include <ceres_ed/solver/normal_equations/group_products.h>
 #include <ceres_ed/solver/normal_equations/loss_correction.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
@@ -9,10 +9,10 @@
 namespace ceres_ed {
 namespace {
 
-// Residuals that are evaluated at once.
+// The number of residuals that are evaluated at once.
 constexpr int kBatch = 32;
 
-// Adds D^T D and D^T r, with D the derivative by the point in the frame of the map.
+// Adds D^T D and D^T r, where D is the derivative with respect to the point in the map frame.
 void AddMoments(double scale,
                 int num_residuals,
                 const double* residuals,
@@ -36,7 +36,7 @@ void AddMoments(double scale,
 
 }  // namespace
 
-// Buffers for one group at a time, all of one length a point.
+// The buffers of one task for one group at a time; each has a fixed number of values per point.
 struct NormalEquations::PointScratch {
   PointScratch(int max_points, int max_residuals)
       : in_map(3 * max_points),
@@ -46,7 +46,7 @@ struct NormalEquations::PointScratch {
         residuals(kBatch * max_residuals),
         jacobians(3 * kBatch * max_residuals) {}
 
-  // Warped points in the map and in the frame of the residuals.
+  // The warped points in the map frame and in the frame of the residuals.
   std::vector<double> in_map;
   std::vector<double> in_frame;
   std::vector<double> moments;
@@ -54,13 +54,13 @@ struct NormalEquations::PointScratch {
   std::vector<double> residuals;
   std::vector<double> jacobians;
   double batch[3 * kBatch];
-  // Of the camera; null for points without one.
+  // The rotation of the camera; it is used for points with a camera only.
   const Eigen::Matrix3d* R_c = nullptr;
   GroupSums sums;
 };
 
-// sum_a w_a [A_a (v - g_a) + g_a + t_a] = (sum_a w_a A_a) h + sum_a w_a c_a, with h = v - g_0 and
-// c_a what node a makes of g_0.
+// Warps the points of a group (Eq. 1): sum_a w_a [A_a (v - g_a) + g_a + t_a] = (sum_a w_a A_a) h +
+// sum_a w_a c_a, where h = v - g_0 and c_a is the image of g_0 under node a.
 void NormalEquations::WarpGroup(const PointGroup& group,
                                 const DeformationState& state,
                                 PointScratch* scratch) const {
@@ -90,6 +90,8 @@ void NormalEquations::WarpGroup(const PointGroup& group,
   }
 }
 
+// Evaluates the residuals of one run at the warped points, and adds their cost, M = D^T D and v =
+// D^T r.
 bool NormalEquations::AddRun(const PointRun& run,
                              bool has_camera,
                              bool linearize,
@@ -144,6 +146,7 @@ bool NormalEquations::AddRun(const PointRun& run,
   return true;
 }
 
+// Warps the points of a group, evaluates their residuals and adds their products to the equations.
 bool NormalEquations::AddGroup(int index,
                                const DeformationState& state,
                                const Sums& sums,

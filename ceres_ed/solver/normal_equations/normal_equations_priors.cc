@@ -1,4 +1,4 @@
-// E_rot and E_reg in NormalEquations.
+// The part of NormalEquations that treats E_reg and E_rot in closed form.
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <cmath>
@@ -12,8 +12,9 @@ using NodeBlock = Eigen::Map<Eigen::Matrix<double, kNodeSize, kNodeSize>>;
 
 }  // namespace
 
-// r = s [A_j e + t_j - t_k - e] with s = sqrt(alpha): the Jacobian by node j is s [e; 1]^T (x) I,
-// and that by t_k is -s I.
+// Adds a residual of E_reg (Eq. 6): r = s [A_j e + t_j - t_k - e] with s = sqrt(alpha_jk) and e =
+// g_k - g_j. The Jacobian with respect to node j is s [e; 1]^T (x) I, and that with respect to t_k
+// is -s I.
 bool NormalEquations::AddEdge(const Edge& edge,
                               const DeformationState& state,
                               const Sums& sums,
@@ -67,8 +68,8 @@ bool NormalEquations::AddEdge(const Edge& edge,
   return true;
 }
 
-// With A = [c1 c2 c3], r_ij = ci.cj for i < j and r_ii = ci.ci - 1: the derivative of r_ij by ci is
-// cj, and that of r_ii is 2 ci.
+// Adds the residuals of E_rot (Eq. 4, 5) of one node. With A = [c1 c2 c3], r_ij = ci.cj for i < j
+// and r_ii = ci.ci - 1. The derivative of r_ij with respect to ci is cj, and that of r_ii is 2 ci.
 bool NormalEquations::AddRotation(const Rotation& rotation,
                                   const DeformationState& state,
                                   const Sums& sums,
@@ -89,7 +90,7 @@ bool NormalEquations::AddRotation(const Rotation& rotation,
   for (int j = 0; j < 3; ++j) {
     for (int i = 0; i < 3; ++i) {
       Eigen::Matrix3d product = A.col(j) * A.col(i).transpose();
-      // The sum over the other columns, and four times the own one.
+      // The sum over the other columns, and four times the product of the column itself.
       if (i == j) product = all + 3.0 * product;
       H.block<3, 3>(3 * i, 3 * j) += rotation.weight * product;
     }

@@ -1,4 +1,5 @@
-// Where the products of NormalEquations go, and how its residuals are dealt out.
+// The part of NormalEquations that determines where products are added, and that divides the
+// residuals among tasks.
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <algorithm>
@@ -8,13 +9,13 @@
 namespace ceres_ed {
 namespace {
 
-// Parts that residuals are dealt out to where there are many. More share more entries.
+// The largest number of tasks. More tasks would share more entries.
 constexpr int kMaxTasks = 4;
-// Of a point, of spreading a group over its blocks, and the least that is worth a part of its own,
-// in points.
+// The work of distributing the sums of a group to its blocks, and the smallest work for which a
+// task is useful. Both are in units of the work for one point.
 constexpr int kGroupWork = 8;
 constexpr std::int64_t kMinTaskWork = 500;
-// Strips from which parts are made.
+// The number of strips from which tasks are formed.
 constexpr int kNumBins = 256;
 
 // The factor splits a node into its affine matrix and its translation.
@@ -94,7 +95,8 @@ int NormalEquations::NumGroupSlots(const PointGroup& group) const {
   return n * (n + 1) / 2 + (VariesCamera(group) ? n + 1 : 0);
 }
 
-// Parts are strips across the longest axis of the graph, of equal work: neighbours share few.
+// Divides the residuals among tasks of equal work. The tasks are strips across the longest axis of
+// the graph, so that neighbouring tasks share few entries.
 void NormalEquations::DealOut(const DeformationGraph& graph) {
   Eigen::AlignedBox3d box;
   for (const int node : variable_nodes_) box.extend(graph.position(node));
@@ -178,8 +180,8 @@ void NormalEquations::ForEachSlot(const Task& task, const Visitor& visitor) {
   for (const int i : task.items) visit(items_[i].first_slot, NumItemSlots(items_[i]));
 }
 
-// An entry that a task has for itself is summed up in place; else each of its tasks has a place for
-// it among the shared ones, with one for the gradient behind a diagonal block.
+// If only one task uses an entry, the sums are added in place. Otherwise each of its tasks has a
+// place for the entry in the shared memory; for a diagonal block the gradient follows the values.
 void NormalEquations::FindTargets(const BlockStructure& structure) {
   shares_.clear();
   shared_size_ = 0;

@@ -7,14 +7,14 @@
 namespace ceres_ed {
 namespace {
 
-// The point store of a residual; null where it is none of a point store.
+// Returns the point store of a residual, or null if it does not belong to one.
 const PointStore* AsPoint(const SelectedResidual& residual) {
   const bool is_point =
       residual.store != nullptr && residual.store->form() == ResidualStore::Form::kPoint;
   return is_point ? static_cast<const PointStore*>(residual.store) : nullptr;
 }
 
-// Places in [0, n) in the order of their nodes.
+// Returns the positions in [0, n), sorted by their nodes.
 std::array<int, kMaxBoundNodes> NodeOrder(const BlockRef* blocks, int num_nodes) {
   std::array<int, kMaxBoundNodes> order{};
   for (int i = 0; i < num_nodes; ++i) {
@@ -70,7 +70,7 @@ int PointGroups::FindPoint(const SelectedResidual& residual, const PointStore& s
     point_of_index_[index] = static_cast<int>(found_.size());
     return -1;
   }
-  // Contexts may differ.
+  // Residuals may come from different contexts, in which the same index means another point.
   const StoredPoint& other = found_[found].store->point(found_[found].index);
   if (other.position != point.position || other.num_nodes != point.num_nodes ||
       other.has_camera != point.has_camera) {
@@ -152,7 +152,7 @@ void PointGroups::PlacePoints(const DeformationGraph& graph) {
   }
 }
 
-// By group, and there in the order in which they come, which is by term and store.
+// Stores the residuals by group; within a group they keep their order, which is by term and store.
 void PointGroups::PlaceResiduals(const std::vector<SelectedResidual>& residuals) {
   next_residual_.assign(groups_.size() + 1, 0);
   for (const int point : point_of_residual_) ++next_residual_[found_[point].group + 1];

@@ -1,4 +1,4 @@
-// Observations gathered by the nodes that carry them.
+// Observed points, grouped by the nodes to which they are bound.
 #ifndef CERES_ED_SOLVER_NORMAL_EQUATIONS_POINT_GROUPS_H_
 #define CERES_ED_SOLVER_NORMAL_EQUATIONS_POINT_GROUPS_H_
 
@@ -13,7 +13,7 @@
 
 namespace ceres_ed {
 
-// Residuals of one store and term on points of one group.
+// A run of residuals of one store and one term on points of one group.
 struct PointRun {
   const PointStore* store = nullptr;
   int term = -1;
@@ -21,7 +21,7 @@ struct PointRun {
   int num_residuals = 0;
 };
 
-// Points that the same nodes carry.
+// The points that are bound to the same nodes.
 struct PointGroup {
   int first_node = 0;
   int num_nodes = 0;
@@ -33,32 +33,36 @@ struct PointGroup {
   int num_runs = 0;
 };
 
-// All residuals of point stores in a problem. Residuals of several energies on one point share it.
+// All residuals of point stores in a problem. Residuals of several energies on the same point share
+// it.
 class PointGroups {
  public:
-  // Takes the residuals of point stores among `residuals`; keeps the memory of what was there.
+  // Takes the residuals of point stores among `residuals`, and reuses the memory of the previous
+  // ones.
   void Build(const DeformationGraph& graph, const std::vector<SelectedResidual>& residuals);
 
   const std::vector<PointGroup>& groups() const { return groups_; }
-  // Of a group: its nodes, ascending, and v - (position of its first node) of each point.
+  // Return, for a group, its nodes in ascending order, and v - (position of its first node) of each
+  // point.
   const int* nodes(const PointGroup& group) const { return &nodes_[group.first_node]; }
   const double* levers(const PointGroup& group) const { return levers_[group.first_point].data(); }
-  // num_nodes a point.
+  // Returns the weights of the nodes, num_nodes values per point.
   const double* weights(const PointGroup& group) const { return &weights_[group.first_weight]; }
   const PointRun* runs(const PointGroup& group) const { return &runs_[group.first_run]; }
-  // Of a run, each residual: its number in the store, its point among those of the group, and the
-  // weight of its term times its own.
+  // Return, for each residual of a run, its index in the store, its point among those of the group,
+  // and the weight of its term times its own weight.
   const int* indices(const PointRun& run) const { return &indices_[run.first_residual]; }
   const int* points(const PointRun& run) const { return &points_[run.first_residual]; }
   const double* residual_weights(const PointRun& run) const {
     return &residual_weights_[run.first_residual];
   }
-  // The most points of a group, and the most residuals of one on a point.
+  // Return the largest number of points in a group, and the largest number of residuals of one
+  // residual block on a point.
   int max_points() const { return max_points_; }
   int max_residuals() const { return max_residuals_; }
 
  private:
-  // A point as it came, and where it goes.
+  // A point in the order of the residuals, and its place in a group.
   struct Point {
     const PointStore* store = nullptr;
     const BlockRef* blocks = nullptr;
@@ -66,7 +70,7 @@ class PointGroups {
     int group = 0;
     int place = 0;
   };
-  // The same point among those that came before; -1 where there is none.
+  // Returns an earlier point that equals the point of this residual, or -1 if there is none.
   int FindPoint(const SelectedResidual& residual, const PointStore& store);
   int FindOrAddGroup(const int* sorted_nodes, int num_nodes, bool has_camera);
   int AddPoint(const SelectedResidual& residual, const PointStore& store);
@@ -85,8 +89,8 @@ class PointGroups {
   int max_points_ = 0;
   int max_residuals_ = 0;
 
-  // While building. By the index of a point in its context, by place of a hash, and of each
-  // residual of a point store.
+  // Used only while building: the point of each index in the context, the hash table of groups, all
+  // points that were found, and the point of each residual of a point store.
   std::vector<int> point_of_index_;
   std::vector<int> group_table_;
   std::vector<Point> found_;
