@@ -56,7 +56,8 @@ std::vector<double> NearestDistances(const std::vector<Eigen::Vector3d>& points,
 
 using Edge = std::pair<int, int>;
 
-// Each edge once, the lower index in front.
+// Returns each edge once, with the lower index first. On bare points the edges go to the nearest
+// neighbours.
 std::vector<Edge> EdgesOf(const PointCloud& source,
                           const std::vector<std::array<int, 3>>& triangles) {
   std::vector<Edge> edges;
@@ -80,7 +81,7 @@ std::vector<Edge> EdgesOf(const PointCloud& source,
   return edges;
 }
 
-// The rotation at each point that brings its edges closest to those of the result (Kabsch).
+// Returns, for each point, the rotation that best maps its edges to those of the result (Kabsch).
 std::vector<Eigen::Matrix3d> BestRotations(const PointCloud& source,
                                            const PointCloud& result,
                                            const std::vector<Edge>& edges) {
@@ -101,9 +102,9 @@ std::vector<Eigen::Matrix3d> BestRotations(const PointCloud& source,
   return rotations;
 }
 
-// Normals weighted by triangle area, shared by points at one position: on a mangled result slivers
-// must not outvote sound triangles, as they can with weights by angle. The cloud's own normals
-// where it has no triangles; empty where there are neither.
+// Returns normals that are weighted by triangle area and shared by points at the same position. On
+// a damaged result, slivers must not dominate sound triangles, which can happen with weights by
+// angle. Returns the cloud's own normals if it has no triangles, and nothing if it has neither.
 std::vector<Eigen::Vector3d> NormalsOf(const PointCloud& cloud) {
   if (!cloud.HasTriangles()) {
     return cloud.HasNormals() ? cloud.normals : std::vector<Eigen::Vector3d>();
@@ -116,7 +117,7 @@ std::vector<Eigen::Vector3d> NormalsOf(const PointCloud& cloud) {
   }
   std::vector<Eigen::Vector3d> normals;
   normals.reserve(cloud.size());
-  // A zero vector stays one.
+  // A zero vector stays zero.
   for (const int point : representative) normals.push_back(sums[point].normalized());
   return normals;
 }
@@ -259,7 +260,7 @@ StatusOr<Evaluation> Evaluate(const PointCloud& result,
     if (cloud == nullptr) continue;
     if (Status status = CheckCounterpart(name, *cloud, result.size()); !status.ok()) return status;
   }
-  // A result of bare points is a mesh all the same when its source was one.
+  // If the source was a mesh, a result of bare points is a mesh as well.
   PointCloud surface = result;
   if (!result.HasTriangles() && source != nullptr) surface.triangles = source->triangles;
   Evaluation evaluation;

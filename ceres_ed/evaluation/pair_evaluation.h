@@ -1,4 +1,4 @@
-// How good a fit is: distances to the target, to the truth, and what the fit did to the mesh.
+// Measures how good a fit is: distances to the target and to the truth, and the change of the mesh.
 #ifndef CERES_ED_EVALUATION_PAIR_EVALUATION_H_
 #define CERES_ED_EVALUATION_PAIR_EVALUATION_H_
 
@@ -12,7 +12,7 @@
 
 namespace ceres_ed {
 
-// Figures of a set of distances, all in the unit of the input. Percentiles are interpolated
+// Statistics of a set of distances, all in the unit of the input. Percentiles are interpolated
 // linearly between the sorted distances.
 struct DistanceStatistics {
   double mean = 0.0;
@@ -20,71 +20,76 @@ struct DistanceStatistics {
   double p50 = 0.0;
   double p95 = 0.0;
   double max = 0.0;
-  // Mean of the smallest 80 %: what a part that is missing in the other surface does not spoil.
+  // The mean of the smallest 80 %. It is not affected by a part that is missing in the other
+  // surface.
   double trimmed = 0.0;
 
-  // Returns these in percent of `diagonal`; as they are where that is not positive.
+  // Returns the statistics in percent of `diagonal`, or unchanged if `diagonal` is not positive.
   DistanceStatistics InPercentOf(double diagonal) const;
 };
 
-// Change of the edges and triangles between the source and the result.
+// The change of edges and triangles between the source and the result.
 struct ShapeChange {
-  // Of |l' / l - 1| over all mesh edges (each point's six nearest neighbours on bare points), no
-  // unit. Edges of length 0 in the source are left out.
+  // The change |l' / l - 1| over all mesh edges (for bare points: the edges to the six nearest
+  // neighbours of each point), without unit. Edges of length 0 in the source are left out.
   double edge_mean = 0.0;
   double edge_p95 = 0.0;
   double edge_p99 = 0.0;
   int edges = 0;
-  // Triangles whose normal points against the source's after the mean of the best-fit rotations at
-  // the three corners.
+  // The number of triangles whose normal points against the normal in the source, after that has
+  // been rotated by the mean of the best-fit rotations at the three corners.
   int flipped = 0;
-  // Triangles with less than 5 % of their area in the source.
+  // The number of triangles with less than 5 % of their area in the source.
   int degenerate = 0;
 };
 
-// Everything that Evaluate() measures. "Forward" is result to target, "backward" target to result.
+// Everything that Evaluate() measures. "Forward" means from the result to the target, "backward"
+// from the target to the result.
 struct Evaluation {
-  // Diagonal of the target's bounding box, unit of the input: what percentages refer to.
+  // The diagonal of the target's bounding box, in the unit of the input. Percentages refer to it.
   double diagonal = 0.0;
-  // Vertices to the closest point of the other surface (to its points where it has no triangles).
+  // Distances of vertices to the closest point of the other surface (of its points, if it has no
+  // triangles).
   DistanceStatistics forward;
   DistanceStatistics backward;
-  // Mean, p50, p95 and trimmed: the average of both ways; rms: the root of the average of both mean
-  // squares; max: the larger one.
+  // Both directions together. mean, p50, p95 and trimmed are the averages of both directions; rms
+  // is the root of the average of both mean squares; max is the larger maximum.
   DistanceStatistics symmetric;
-  // Vertices to the nearest vertex of the other cloud.
+  // Distances of vertices to the nearest vertex of the other cloud.
   DistanceStatistics nearest_forward;
   DistanceStatistics nearest_backward;
-  // Mean of |(r - q) . n| over result vertices r, with q the nearest target vertex and n its
-  // normal (weighted by area on a mesh); nothing where the target has neither triangles nor
+  // The mean of |(r - q) . n| over result vertices r, where q is the nearest target vertex and n
+  // its normal (weighted by area on a mesh). Nothing if the target has neither triangles nor
   // normals.
   std::optional<double> point_to_plane;
-  // Mean angle between the normal of each result vertex and that of q, degrees (to [0, 90] where
-  // one of them is known only up to sign); nothing unless both have normals or triangles.
+  // The mean angle between the normals of each result vertex and of q, in degrees (folded to [0,
+  // 90] if one of them is known only up to sign). Nothing unless both have normals or triangles.
   std::optional<double> normal_error_deg;
-  // Distances of each vertex to its true place; with a truth only.
+  // The distances of each vertex to its true position; only with a truth.
   std::optional<DistanceStatistics> truth;
-  // With a source only.
+  // The change of the mesh; only with a source.
   std::optional<ShapeChange> shape;
 };
 
-// Returns the statistics of `distances`; all zero for none.
+// Returns the statistics of `distances`; all are zero if there are none.
 DistanceStatistics Summarize(std::vector<double> distances);
 
-// Returns for each of `points` its distance to the surface of `cloud` (not empty): to the
-// triangles, and to vertices in no triangle. Exact.
+// Returns the exact distance of each point to the surface of `cloud`, which must not be empty. The
+// surface is its triangles, and its vertices that belong to no triangle.
 std::vector<double> SurfaceDistances(const std::vector<Eigen::Vector3d>& points,
                                      const PointCloud& cloud);
 
-// Returns for each vertex its distance to its counterpart. CHECKs that the sizes agree.
+// Returns the distance of each vertex to the vertex with the same index. CHECKs that the sizes
+// agree.
 std::vector<double> PointDistances(const PointCloud& result, const PointCloud& truth);
 
-// Returns what became of the edges and triangles of `source`. CHECKs that the sizes agree;
-// triangles are the source's, or the result's where the source has none.
+// Returns the change of the edges and triangles of `source`. CHECKs that the sizes agree. The
+// triangles are those of the source, or those of the result if the source has none.
 ShapeChange MeasureShapeChange(const PointCloud& source, const PointCloud& result);
 
-// Returns every figure. `source` and `truth` may be null; their points are those of `result` in the
-// same order. Errors: a cloud without points or with one that is not finite, unequal counts.
+// Returns all measures. `source` and `truth` may be null; otherwise their points correspond to
+// those of `result` in order. It is an error if a cloud has no points or a point that is not
+// finite, or if counts differ.
 StatusOr<Evaluation> Evaluate(const PointCloud& result,
                               const PointCloud& target,
                               const PointCloud* source = nullptr,

@@ -1,7 +1,7 @@
-// How good a map is, frame by frame: against the true tissue, and against the depth images.
+// Measures how good a map is, frame by frame, against the true tissue and against the depth images.
 //
-// Everything is compared in the camera frame of each frame, so that no choice of a map frame and no
-// alignment enters.
+// All comparisons are made in the camera frame of each frame, so that neither the choice of a map
+// frame nor an alignment affects them.
 #ifndef CERES_ED_EVALUATION_SEQUENCE_EVALUATION_H_
 #define CERES_ED_EVALUATION_SEQUENCE_EVALUATION_H_
 
@@ -20,46 +20,52 @@
 
 namespace ceres_ed {
 
-// Bounds are shares of a point's own depth, so that they mean the same in any unit.
+// Options of the evaluation. Lengths are shares of a point's own depth, so that they do not depend
+// on the unit.
 struct SequenceEvaluationOptions {
-  // A map point born farther than this from the true surface sat on no tissue point: its tracking
-  // error is unknown, its surface error counts all the same. 2 mm at a depth of 0.29 m.
+  // A map point that was farther than this from the true surface when it was created belongs to no
+  // tissue point: its tracking error is unknown, but its surface error counts. > 0; default 0.007,
+  // which is 2 mm at a depth of 0.29 m.
   double max_birth_offset = 0.007;
-  // A point is hidden when it lies farther than this behind what the camera sees at its pixel. Wide
-  // enough for the error of a map, narrower than an organ: 8 mm at 0.27 m.
+  // A point is hidden if it lies farther than this behind what the camera sees at its pixel. The
+  // value is larger than the error of a map and smaller than an organ. > 0; default 0.03, which is
+  // 8 mm at 0.27 m.
   double visibility_tolerance = 0.03;
 
-  // False, with the value and what was expected in `error`, unless all are positive.
+  // Returns false, with the value and what was expected in `error`, unless all values are positive.
   bool IsValid(std::string* error) const;
 };
 
-// Errors of one frame, metres; statistics are nothing where there is no such point.
+// The errors of one frame in metres. A statistic is nothing if there are no such points.
 struct FrameTruthError {
   int frame = 0;
   int points = 0;
-  // In the picture and not behind the true surface, by its z-buffer.
+  // The number of points in the picture that are not behind the true surface, by its z-buffer.
   int seen = 0;
-  // Points that sat on no tissue point at birth, or too far from it to tell.
+  // The number of points without a tissue point, because they were too far from the true surface
+  // when they were created.
   int unknown = 0;
-  // Exact distance of the map points to the triangles of the true surface.
+  // The exact distance of the map points to the triangles of the true surface.
   std::optional<DistanceStatistics> surface_all;
   std::optional<DistanceStatistics> surface_seen;
-  // Distance of the map points to where the tissue point is that they sat on at birth.
+  // The distance of each map point to the present position of the tissue point at which it was
+  // created.
   std::optional<DistanceStatistics> tracking_seen;
   std::optional<DistanceStatistics> tracking_hidden;
 };
 
-// Compares snapshots with the truth. Remembers the tissue point of each id: it never changes.
+// Compares snapshots with the truth. It keeps the tissue point of each identifier, which never
+// changes.
 class TruthEvaluator {
  public:
-  // `truth` is kept by reference and must outlive this. CHECKs the options.
+  // `truth` is kept by reference and must outlive this object. CHECKs the options.
   TruthEvaluator(const PinholeCamera& camera,
                  const SceneTruth& truth,
                  const SequenceEvaluationOptions& options = {});
 
-  // Returns the errors of a snapshot. Errors name the frame or the id: the truth lacks the frame, a
-  // point was born in a later frame than this or in one that the truth lacks, or in another one
-  // than an earlier snapshot said.
+  // Returns the errors of a snapshot. It is an error, with the frame or the identifier, if the
+  // truth lacks the frame, or if a point was created in a later frame, in a frame that the truth
+  // lacks, or in a frame other than the one in an earlier snapshot.
   StatusOr<FrameTruthError> Evaluate(const LiveSnapshot& snapshot);
 
  private:
@@ -76,34 +82,35 @@ class TruthEvaluator {
   std::unordered_map<int, Birth> births_;
 };
 
-// How the map agrees with the depth image of its frame.
+// How well the map agrees with the depth image of its frame.
 struct DepthAgreement {
   int frame = 0;
   int points = 0;
-  // In the picture and behind no other map point.
+  // The number of points that are in the picture and not behind another map point.
   int seen = 0;
-  // Of those at a pixel that has a depth.
+  // The number of these points whose pixel has a depth.
   int measured = 0;
-  // |z - depth| at the pixel, along the optical axis, metres; nothing where none is measured.
+  // z - depth| at the pixel, along the optical axis, in metres; nothing if no point is measured.
   std::optional<DistanceStatistics> residual;
 };
 
-// Returns how `snapshot` agrees with `depth`. CHECKs that the image has the camera's size.
+// Returns how well `snapshot` agrees with `depth`. CHECKs that the image has the camera's size.
 DepthAgreement CompareWithDepth(const PinholeCamera& camera,
                                 const LiveSnapshot& snapshot,
                                 const DepthImage& depth,
                                 const SequenceEvaluationOptions& options = {});
 
-// One figure of every frame, in sum.
+// A summary of one measure over all frames.
 struct AcrossFrames {
   double mean = 0.0;
   double median = 0.0;
   double max = 0.0;
-  // How many frames have it.
+  // The number of frames that have the measure.
   int frames = 0;
 };
 
-// Returns the sum of a figure; frames that lack it do not count. All zero where all lack it.
+// Returns the summary of a measure. Frames without it do not count; all values are zero if no frame
+// has it.
 AcrossFrames SummarizeFrames(const std::vector<std::optional<double>>& values);
 
 }  // namespace ceres_ed

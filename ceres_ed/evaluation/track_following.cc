@@ -12,8 +12,8 @@
 namespace ceres_ed {
 namespace {
 
-// Nearer than this all map points are as good, pixels: without a floor, one of them would take all
-// the weight, and its noise.
+// The smallest distance for the weights, in pixels. Without this lower bound, one near map point
+// could take all the weight, and its noise would decide.
 constexpr double kMinWeightDistance = 0.5;
 
 }  // namespace

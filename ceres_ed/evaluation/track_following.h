@@ -1,4 +1,4 @@
-// Reprojection error of a map against tracks of picture points.
+// Measures the reprojection error of a map against tracks of image points.
 #ifndef CERES_ED_EVALUATION_TRACK_FOLLOWING_H_
 #define CERES_ED_EVALUATION_TRACK_FOLLOWING_H_
 
@@ -16,50 +16,55 @@
 
 namespace ceres_ed {
 
+// Options of TrackFollower.
 struct TrackFollowingOptions {
-  // A track is tied to so many map points...
+  // The largest number of map points to which a track is attached, >= 1; default 4.
   int neighbors = 4;
-  // ...that are seen at most this far from it in the picture, pixels.
+  // The largest distance of these map points from the track in the picture, in pixels, > 0; default
+  // 8.
   double max_distance = 8.0;
-  // Of the map's visibility.
+  // The options of the visibility of map points.
   SequenceEvaluationOptions visibility;
 };
 
-// Errors of the tracks in one frame, pixels.
+// The errors of the tracks in one frame, in pixels.
 struct TrackFrameError {
   int frame = 0;
-  // Tracks that are given here and were tied to the map before.
+  // The number of tracks that are given in this frame and were attached to the map in an earlier
+  // one.
   int tracks = 0;
-  // Of those whose map points are all gone, or behind the camera.
+  // The number of these tracks whose map points are all removed or behind the camera.
   int lost = 0;
   std::optional<DistanceStatistics> error;
 };
 
+// The errors of all tracks.
 struct TrackEvaluation {
-  // Tracks that are given in a frame of the result.
+  // The number of tracks that are given in a frame of the result.
   int tracks = 0;
-  // Of those that could be tied to the map.
+  // The number of these tracks that could be attached to the map.
   int followed = 0;
-  // Of those followed that had no map point near them in their first frame, but in a later one.
+  // The number of followed tracks that had no map point near them in their first frame, but in a
+  // later one.
   int late = 0;
-  // Of those followed that lost all their map points in a frame at least.
+  // The number of followed tracks that lost all their map points in at least one frame.
   int lost = 0;
-  // Over all tracks and frames, the frame in which each was tied to the map left out: its error is
-  // zero there. Pixels; nothing where no track was followed into another frame.
+  // The errors over all tracks and frames, in pixels. The frame in which a track was attached is
+  // left out, because the error is zero there. Nothing if no track was followed into another frame.
   std::optional<DistanceStatistics> error;
   std::vector<TrackFrameError> frames;
 };
 
-// Follows tracks through the snapshots. In the first frame in which it is given and map points are
-// near, a track is tied to the nearest ones that are seen; from then on it is carried by the mean
-// of their displacements in the picture, each weighted by the inverse of its distance.
+// Follows tracks through the snapshots. In the first frame in which a track is given and has map
+// points near it, it is attached to the nearest visible ones. From then on its predicted motion is
+// the mean of their displacements in the picture, weighted by the inverse of their distances.
 class TrackFollower {
  public:
   TrackFollower(const PinholeCamera& camera,
                 const std::vector<TrackObservation>& observations,
                 const TrackFollowingOptions& options = {});
 
-  // Snapshots come in ascending order of their frames.
+  // Adds a snapshot. Snapshots must come in ascending order of their frames.
   void Add(const LiveSnapshot& snapshot);
 
   // Returns the errors so far.
@@ -69,7 +74,7 @@ class TrackFollower {
   struct Tie {
     int id = -1;
     double weight = 0.0;
-    // Of the map point when it was tied.
+    // The position of the map point when the track was attached.
     Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   };
   struct Track {
@@ -79,7 +84,7 @@ class TrackFollower {
     Eigen::Vector2d start = Eigen::Vector2d::Zero();
     std::vector<Tie> ties;
   };
-  // A map point that is seen.
+  // A visible map point.
   struct Candidate {
     int id;
     Eigen::Vector2d pixel;

@@ -18,8 +18,8 @@ struct PosePair {
   CameraPose truth;
 };
 
-// The rotation that is closest to all of truth * estimate^-1 (chordal mean), and the translation
-// between the mean centres.
+// Returns the rotation that is closest to all of truth * estimate^-1 (chordal mean), and the
+// translation between the mean centres.
 Similarity AlignOrientations(const std::vector<PosePair>& pairs) {
   Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
   Eigen::Vector3d estimate_mean = Eigen::Vector3d::Zero();
@@ -48,7 +48,7 @@ Similarity BestAlignment(const std::vector<PosePair>& pairs) {
   return fitted.ok() ? *fitted : AlignOrientations(pairs);
 }
 
-// `alignment` brings the world of the estimate to that of the truth.
+// Returns the errors after `alignment`, which maps the world of the estimate to that of the truth.
 TrajectoryError ErrorAfter(const Similarity& alignment, const std::vector<PosePair>& pairs) {
   TrajectoryError error;
   std::vector<double> translations, rotations;

@@ -1,4 +1,4 @@
-// The true surface of a frame, and places on it.
+// The true surface of a frame, and material points on it.
 #ifndef CERES_ED_EVALUATION_TRUE_SURFACE_H_
 #define CERES_ED_EVALUATION_TRUE_SURFACE_H_
 
@@ -9,33 +9,35 @@
 
 namespace ceres_ed {
 
-// A place on the tissue that stays the same however the tissue moves.
+// A material point of the tissue, which moves with the tissue.
 struct TissuePoint {
-  // -1: unknown.
+  // The triangle, or -1 if the point is unknown.
   int triangle = -1;
-  // Weights of its corners.
+  // The barycentric weights of the triangle's corners.
   Eigen::Vector3d barycentric = Eigen::Vector3d::Zero();
 
   bool known() const { return triangle >= 0; }
 };
 
-// The true surface in one frame; it stands still in memory, for its search tree refers to it.
+// The true surface in one frame. It cannot be moved in memory, because its search tree refers to
+// it.
 class TrueSurface {
  public:
-  // A mesh with at least one triangle.
+  // `mesh` must have at least one triangle.
   explicit TrueSurface(PointCloud mesh);
   TrueSurface(const TrueSurface&) = delete;
   TrueSurface& operator=(const TrueSurface&) = delete;
 
   const PointCloud& mesh() const { return mesh_; }
 
-  // The exact distance to the triangles.
+  // Returns the exact distance of `point` to the triangles.
   double Distance(const Eigen::Vector3d& point) const;
 
-  // The tissue point closest to `point`; unknown when it is farther than `max_distance`.
+  // Returns the tissue point closest to `point`, or an unknown one if it is farther than
+  // `max_distance`.
   TissuePoint Locate(const Eigen::Vector3d& point, double max_distance) const;
 
-  // Where a known tissue point is in this frame.
+  // Returns the position of a known tissue point in this frame.
   Eigen::Vector3d PlaceOf(const TissuePoint& tissue) const;
 
  private:

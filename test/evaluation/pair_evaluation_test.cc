@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// A grid of `side` x `side` vertices with unit spacing in z = `height`.
+// Returns a grid of `side` x `side` vertices with unit spacing in z = `height`.
 PointCloud Grid(int side, double height) {
   PointCloud mesh;
   for (int y = 0; y < side; ++y) {
@@ -26,7 +26,7 @@ PointCloud Grid(int side, double height) {
   return mesh;
 }
 
-// A ball of parallels and meridians.
+// Returns a ball made of parallels and meridians.
 PointCloud Ball(int rings, double radius) {
   const int columns = 2 * rings;
   PointCloud mesh;
@@ -76,7 +76,7 @@ TEST(Evaluate, FindsNothingWrongWithTheTargetItself) {
   EXPECT_EQ(e->nearest_forward.max, 0.0);
   EXPECT_EQ(e->nearest_backward.max, 0.0);
   EXPECT_EQ(e->point_to_plane, 0.0);
-  // acos is flat at 1: rounding of 1e-16 becomes an angle of 1e-8.
+  // acos is flat at 1, so that rounding of 1e-16 becomes an angle of 1e-8.
   EXPECT_LT(e->normal_error_deg.value(), 1e-5);
   EXPECT_EQ(e->truth->max, 0.0);
   EXPECT_EQ(e->shape->edge_p99, 0.0);
@@ -106,7 +106,8 @@ TEST(Evaluate, GivesTheShiftOfAPlane) {
 }
 
 TEST(Evaluate, MeasuresToTheSurfaceNotToVertices) {
-  // Shifted within its plane by half a cell: on the surface but for the column that hangs over.
+  // The result is shifted within its plane by half a cell. It lies on the surface, except for the
+  // column beyond the border.
   const PointCloud target = Grid(11, 0.0);
   PointCloud result = target;
   for (auto& point : result.points) point.x() += 0.5;
@@ -123,7 +124,7 @@ TEST(Evaluate, GivesTheGapOfConcentricBalls) {
   const PointCloud result = Ball(60, 1.5);
   const auto e = Evaluate(result, target, &target, nullptr);
   ASSERT_TRUE(e.ok()) << e.status().message();
-  // Faces lie inside their ball by the sagitta r (pi / 60)^2 / 4 at most (both diagonals).
+  // The faces lie inside their ball by at most the sagitta r (pi / 60)^2 / 4 (both diagonals).
   const double sagitta = 2.0 * std::pow(M_PI / 60.0, 2) / 4.0;
   EXPECT_NEAR(e->forward.mean, 0.5, sagitta);
   EXPECT_NEAR(e->backward.mean, 0.5, sagitta);
@@ -131,7 +132,7 @@ TEST(Evaluate, GivesTheGapOfConcentricBalls) {
   EXPECT_NEAR(e->shape->edge_mean, 0.25, 1e-9);
   EXPECT_NEAR(e->shape->edge_p99, 0.25, 1e-9);
   EXPECT_LT(e->normal_error_deg.value(), 1e-4);
-  // Inside out, every normal is the opposite one.
+  // The mesh is turned inside out, so that every normal is reversed.
   PointCloud inverted = result;
   for (auto& t : inverted.triangles) std::swap(t[1], t[2]);
   EXPECT_NEAR(Evaluate(inverted, target)->normal_error_deg.value(), 180.0, 1e-4);
@@ -172,7 +173,8 @@ TEST(MeasureShapeChange, IsBlindToRigidMotion) {
 TEST(MeasureShapeChange, FindsAFlipAndACollapse) {
   const PointCloud source = Grid(12, 0.0);
   PointCloud pushed = source;
-  // Vertex 65 at (5, 5) goes beyond its right neighbours: the triangles on that side turn over.
+  // Vertex 65 at (5, 5) moves beyond its right neighbours, so that the triangles on that side turn
+  // over.
   pushed.points[65].x() += 1.6;
   EXPECT_GT(MeasureShapeChange(source, pushed).flipped, 0);
   PointCloud collapsed = source;

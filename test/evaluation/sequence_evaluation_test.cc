@@ -12,15 +12,16 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Motion of the plane and of the camera a frame, in the world.
+// The motion of the plane and of the camera per frame, in the world frame.
 const Eigen::Vector3d kTissueStep(0.02, -0.01, 0.005);
 const Eigen::Vector3d kCameraStep(0.01, 0.02, -0.02);
 constexpr int kFrames = 4;
 
-// Sees x and y from -1 to 1 at z = 1.
+// Returns a camera that sees x and y from -1 to 1 at z = 1.
 PinholeCamera MakeCamera() { return {50.0, 50.0, 49.5, 49.5, 100, 100}; }
 
-// A plane z = 1 of 2 x 2 squares that moves without turning, under a camera that does the same.
+// Returns a plane z = 1 of 2 x 2 squares that moves without rotation, under a camera that moves
+// likewise.
 SceneTruth MovingPlane() {
   SceneTruth truth;
   truth.triangles = {
@@ -40,10 +41,11 @@ SceneTruth MovingPlane() {
   return truth;
 }
 
-// What float vertices and sums cost.
+// The rounding error of float vertices and of sums.
 constexpr double kRound = 1e-6;
 
-// The map of a perfect run in the camera frame of `frame`: a grid of points born in frame `born`.
+// Returns the map of a perfect run in the camera frame of `frame`: a grid of points created in
+// frame `born`.
 LiveSnapshot PerfectMap(int frame, int born = 0) {
   LiveSnapshot snapshot;
   snapshot.frame = frame;
@@ -107,7 +109,7 @@ TEST(TruthEvaluator, SeesSlidingAlongTheSurfaceInTheTrackingAlone) {
 
 TEST(TruthEvaluator, TellsSeenFromHidden) {
   LiveSnapshot snapshot = PerfectMap(1);
-  // Far behind the surface; out of the picture.
+  // One point is far behind the surface, another one outside the picture.
   snapshot.points[0].z() += 0.1;
   snapshot.points[1].x() += 1.5;
   const FrameTruthError error = Evaluate(snapshot);
@@ -135,7 +137,7 @@ TEST(TruthEvaluator, RemembersWherePointsWereBorn) {
   TruthEvaluator evaluator(MakeCamera(), truth);
   LiveSnapshot snapshot = PerfectMap(0);
   ASSERT_TRUE(evaluator.Evaluate(snapshot).ok());
-  // More points of a later frame join those that are known.
+  // More points of a later frame join the known ones.
   snapshot = PerfectMap(2);
   const LiveSnapshot born_later = PerfectMap(2, 1);
   for (std::size_t i = 0; i < born_later.size(); ++i) {

@@ -5,10 +5,10 @@
 namespace ceres_ed {
 namespace {
 
-// One pixel is 0.02 at z = 1.
+// One pixel corresponds to 0.02 at z = 1.
 PinholeCamera MakeCamera() { return {50.0, 50.0, 49.5, 49.5, 100, 100}; }
 
-// A plane z = 1 with a point every 3 pixels that moves `pixels` to the right a frame.
+// Returns a plane z = 1 with a point every 3 pixels, which moves `pixels` to the right per frame.
 LiveSnapshot PlaneAt(int frame, double pixels) {
   LiveSnapshot snapshot;
   snapshot.frame = frame;
@@ -56,7 +56,8 @@ TEST(TrackFollower, MeasuresAKnownOffsetInEveryFrameButTheFirst) {
 }
 
 TEST(TrackFollower, WeighsPointsByTheInverseOfTheirDistance) {
-  // Between two points, 1 pixel from the one and 2 from the other, which alone moves.
+  // The track lies between two points, 1 pixel from one and 2 pixels from the other, and only the
+  // second point moves.
   LiveSnapshot first;
   first.ids = {4, 9};
   first.points = {MakeCamera().BackProject(50, 50, 1.0), MakeCamera().BackProject(53, 50, 1.0)};
@@ -74,7 +75,7 @@ TEST(TrackFollower, TiesToTheSurfaceInFront) {
   LiveSnapshot first = PlaneAt(0, 0.0);
   LiveSnapshot second = PlaneAt(1, 1.0);
   for (LiveSnapshot* snapshot : {&first, &second}) {
-    // A still wall behind, one of whose points is right at the track.
+    // A static wall is behind; one of its points is exactly at the track.
     for (int k = 0; k < 10; ++k) {
       snapshot->ids.push_back(k);
       snapshot->points.push_back(MakeCamera().BackProject(41 + 2.5 * k, 46, 1.5));
@@ -87,7 +88,8 @@ TEST(TrackFollower, TiesToTheSurfaceInFront) {
 }
 
 TEST(TrackFollower, CountsTracksThatItCannotFollow) {
-  // Beside the map; beside it at first; given in no frame of the result; one that the map loses.
+  // Four tracks: beside the map; beside it at first; given in no frame of the result; lost by the
+  // map.
   TrackFollower follower(MakeCamera(),
                          {{0, 0, {5, 5}},
                           {1, 0, {6, 5}},

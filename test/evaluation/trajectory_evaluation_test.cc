@@ -17,7 +17,7 @@ Eigen::Quaterniond Turn(double degrees, const Eigen::Vector3d& axis) {
   return Eigen::Quaterniond(Eigen::AngleAxisd(degrees * kRadiansPerDegree, axis.normalized()));
 }
 
-// A helix, with a camera that turns.
+// Returns a helix with a camera that rotates.
 std::map<int, CameraPose> Helix() {
   std::map<int, CameraPose> poses;
   for (int f = 0; f < kFrames; ++f) {
@@ -27,7 +27,7 @@ std::map<int, CameraPose> Helix() {
   return poses;
 }
 
-// The same seen from another world.
+// Returns the same trajectory in another world frame.
 std::map<int, CameraPose> Moved(std::map<int, CameraPose> poses) {
   const Eigen::Quaterniond rotation = Turn(70.0, {3, -1, 2});
   for (auto& [frame, pose] : poses) {
@@ -45,7 +45,7 @@ TEST(EvaluateTrajectory, FindsNoErrorInAnotherWorld) {
     EXPECT_EQ(error->frames.size(), 10u);
     EXPECT_NEAR(error->translation_rmse, 0.0, 1e-12);
     EXPECT_NEAR(error->translation_max, 0.0, 1e-12);
-    // An angle from a cosine near 1 has half the digits.
+    // An angle computed from a cosine near 1 has half the digits.
     EXPECT_NEAR(error->rotation_max_deg, 0.0, 1e-5);
   }
 }
@@ -66,7 +66,7 @@ TEST(EvaluateTrajectory, CountsAnOffsetSinceTheFirstFrameInFull) {
   EXPECT_NEAR(error.translation_mean, 0.05 * 0.9, 1e-12);
   EXPECT_NEAR(error.translation_median, 0.05, 1e-12);
   EXPECT_NEAR(error.rotation_mean_deg, 1.8, 1e-6);
-  // The best alignment takes most of it back, and cannot be worse in the sum of squares.
+  // The best alignment removes most of the error, and cannot be worse in the sum of squares.
   EXPECT_LT(evaluation->best_alignment.translation_rmse, 0.5 * error.translation_rmse);
   EXPECT_GT(evaluation->best_alignment.translation_rmse, 0.0);
 }
