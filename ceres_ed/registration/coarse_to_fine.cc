@@ -13,13 +13,15 @@
 namespace ceres_ed {
 namespace {
 
-// Distance, as a fraction of the source's diagonal, at which a point counts half as missed.
+// The distance at which a point counts half as unmatched, as a fraction of the source's diagonal,
+// and the share below which nothing counts as unmatched.
 constexpr double kMissedWidth = 0.02;
 constexpr double kNothingMissed = 0.01;
-// Of the source: enough that the target finds one beside each of its own.
+// The number of source samples; it is large enough that each target sample has a source sample near
+// it.
 constexpr int kMissedSamples = 8000;
 
-// The state of other nodes, at some of the source's points, under the warp of `graph`.
+// Returns the state of nodes at the source points `node_points`, under the warp of `graph`.
 DeformationState CarryOver(const BuiltGraph& graph,
                            const DeformationState& state,
                            const std::vector<int>& node_points,
@@ -52,7 +54,7 @@ Status CoarseToFine::BuildGraphs(int levels, FitResult* result) {
     options.node_spacing = finest->node_spacing * std::pow(2.0, level);
     options.target_nodes = 0;
     StatusOr<BuiltGraph> coarse = BuildGraph(source.cloud(), source.topology(), options);
-    // A body of few nodes has no coarser graph: the finer levels do all of it.
+    // A body with few nodes has no coarser graph; the finer levels then do all the work.
     if (coarse.ok()) graphs_.push_back(*std::move(coarse));
   }
   graphs_.push_back(*std::move(finest));
@@ -95,7 +97,7 @@ Status CoarseToFine::Run(FitResult* result) {
   if (Status status = BuildGraphs(options.schedule.levels, result); !status.ok()) return status;
   const std::vector<LevelPlan> plans = PlanLevels(fit_, static_cast<int>(graphs_.size()));
   const int last = static_cast<int>(graphs_.size()) - 1;
-  // Without matches, or with a loss that has no width, there is one way to go.
+  // Without matches, or with a loss that has no width, there is only one way.
   struct Way {
     double loss_width;
     double max_angle_deg;
@@ -130,7 +132,7 @@ Status CoarseToFine::Run(FitResult* result) {
       graph_ = start;
       return Status::Ok();
     }
-    // All of what the smaller surface shows is explained: another way could only do the same.
+    // Everything that the smaller surface shows is explained, so another way cannot be better.
     if (std::min(missed.source, missed.target) < kNothingMissed) break;
   }
   graph_ = last;
@@ -141,7 +143,7 @@ Status CoarseToFine::Run(FitResult* result) {
   return status;
 }
 
-// Landmarks and fixed points are the user's word, whatever they do to the surfaces.
+// Landmarks and fixed points are given by the user and are kept, whatever they do to the surfaces.
 void CoarseToFine::KeepTheBetter(FitResult* result) {
   if (fit_.target == nullptr || !fit_.landmarks.empty() || !fit_.fixed.empty()) return;
   const DeformationState rest(graphs_[graph_].graph.num_nodes());

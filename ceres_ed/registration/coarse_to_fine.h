@@ -1,4 +1,4 @@
-// The levels of a fit: few nodes first, then many.
+// The levels of a fit, from few nodes to many.
 #ifndef CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
 #define CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
 
@@ -13,33 +13,37 @@
 
 namespace ceres_ed {
 
-// Runs the levels one after the other and carries the warp from graph to graph. On the coarse
-// graphs a careful way (narrow loss, strict normals) and a bold one are both tried: the careful one
-// lets limbs that are far away wait until what carries them is near, the bold one fetches what
-// nothing else would bring. The one that leaves less of the two surfaces unmatched goes on.
+// Runs the levels one after the other and transfers the warp from graph to graph. On the coarse
+// graphs two ways are tried: a careful one (narrow loss, strict normals) and a bold one. With the
+// careful way, limbs that are far away do not move until the parts that support them are near; with
+// the bold way, parts are moved that would otherwise not be reached. The fit continues with the way
+// that leaves less of the two surfaces unmatched.
 class CoarseToFine {
  public:
   explicit CoarseToFine(UnitFit fit) : fit_(std::move(fit)) {}
 
-  // Fills in status, energies, matches, iterations, times and warnings of `result`. Error: a source
-  // that no graph can be put on, an unknown energy.
+  // Fills in status, energies, matches, iterations, times and warnings of `result`. It is an error
+  // if no graph can be built on the source, or if an energy is unknown.
   Status Run(FitResult* result);
 
-  // The graph and the state that the fit ended with.
+  // Return the graph and the state at the end of the fit.
   const BuiltGraph& graph() const { return graphs_[graph_]; }
   const DeformationState& state() const { return state_; }
 
  private:
   Status BuildGraphs(int levels, FitResult* result);
-  // Runs one level with `loss_width`, from `state` over graph `from` (-1: at rest).
+  // Runs one level with the loss of `plan`, starting from `state` on the graph `from` (-1: from
+  // rest).
   Status RunLevel(
       int level, const LevelPlan& plan, int from, DeformationState* state, FitResult* result) const;
-  // Goes back to the rigid placement, with a warning, where the deformation explains less.
+  // Returns to the rigid placement, with a warning, if the deformation explains less of the
+  // surfaces.
   void KeepTheBetter(FitResult* result);
+  // Returns how much of both surfaces is unmatched in `state` on the graph of `level`.
   Unmatched Missed(int level, const DeformationState& state) const;
 
   UnitFit fit_;
-  // Coarse to fine.
+  // The graphs from coarse to fine.
   std::vector<BuiltGraph> graphs_;
   int graph_ = 0;
   DeformationState state_;

@@ -13,15 +13,16 @@
 namespace ceres_ed {
 namespace {
 
-// Of normals, radians.
+// The accepted rotation of normals by noise, in radians.
 constexpr double kAcceptedTurn = 0.1;
-// See the header: of the turn of normals, and of the noise that is left.
+// The factors of the header: for the rotation of normals, and for the remaining noise.
 constexpr double kTurnPerSlope = 0.742;
 constexpr double kLeftOfNoise = 0.465;
-// Of the mean square of an edge: less can't be told from an error of the noise's estimate.
+// The smallest share of the mean squared edge that is free of noise; a smaller value cannot be
+// distinguished from an error of the estimated noise.
 constexpr double kMinCleanShare = 0.25;
 
-// The mean length of the edges without what noise adds to them: the ends of an edge differ by
+// Returns the mean edge length without the contribution of the noise: the ends of an edge differ by
 // sqrt(2) noise across the surface.
 double CleanEdge(const WeldedMesh& mesh, const std::vector<Eigen::Vector3d>& points, double noise) {
   double sum = 0.0;
@@ -37,8 +38,8 @@ double CleanEdge(const WeldedMesh& mesh, const std::vector<Eigen::Vector3d>& poi
   return sum / count * std::sqrt(std::max(kMinCleanShare, clean_share));
 }
 
-// Turns `normals` as a whole to the side of `given`: triangles may be wound the other way than the
-// normals of a file look.
+// Reverses all `normals` if they point against `given` on the whole: the triangles of a file may be
+// wound against its normals.
 void TakeSideOf(const std::vector<Eigen::Vector3d>& given, std::vector<Eigen::Vector3d>* normals) {
   double agreement = 0.0;
   for (std::size_t p = 0; p < given.size(); ++p) agreement += given[p].dot((*normals)[p]);
@@ -48,14 +49,14 @@ void TakeSideOf(const std::vector<Eigen::Vector3d>& given, std::vector<Eigen::Ve
 
 Eigen::MatrixXd Smoothed(const WeldedMesh& mesh, const Eigen::MatrixXd& points, double length) {
   SparseCholesky::Matrix matrix = SquaredLaplacian(mesh);
-  // An isolated vertex stays.
+  // An isolated vertex keeps its position.
   Eigen::VectorXd degrees = Eigen::VectorXd::Zero(mesh.num_vertices());
   for (const auto& [a, b] : mesh.edges) {
     degrees[a] += 1.0;
     degrees[b] += 1.0;
   }
   const Eigen::VectorXd hold = degrees.cwiseMax(1.0) / std::pow(length, 4);
-  // The diagonal is the first entry of its column.
+  // The diagonal is the first entry of each column.
   for (int v = 0; v < mesh.num_vertices(); ++v) {
     matrix.valuePtr()[matrix.outerIndexPtr()[v]] += hold[v];
   }
@@ -90,7 +91,7 @@ Denoised Denoise(const Surface& surface, double noise) {
   }
   EnsureNormals(&cloud);
   if (cloud.HasTriangles()) TakeSideOf(surface.cloud().normals, &cloud.normals);
-  // Along the surface points stay where they were: the border keeps its place.
+  // Points do not move along the surface, so that the border keeps its place.
   for (std::size_t p = 0; p < cloud.size(); ++p) {
     const Eigen::Vector3d& normal = cloud.normals[p];
     const Eigen::Vector3d& before = surface.cloud().points[p];

@@ -23,7 +23,7 @@
 namespace ceres_ed {
 namespace {
 
-// The pose that landmarks ask for; the given one where they don't determine it.
+// Returns the pose that the landmarks determine, or the identity if they do not determine one.
 Similarity PoseFromLandmarks(const FitInput& input, bool with_scale) {
   std::vector<Eigen::Vector3d> from;
   std::vector<Eigen::Vector3d> to;
@@ -42,7 +42,8 @@ PointCloud Transformed(const Similarity& pose, const PointCloud& cloud) {
   return moved;
 }
 
-// unit_from_target: the frame of the solve, where the rigidly placed source has diagonal 1.
+// Returns unit_from_target. In the unit frame, in which the fit is solved, the rigidly placed
+// source has the diagonal 1.
 Similarity UnitFrame(const PointCloud& placed_source) {
   const Eigen::AlignedBox3d box = BoundingBox(placed_source.points);
   Similarity unit_from_target;
@@ -51,8 +52,8 @@ Similarity UnitFrame(const PointCloud& placed_source) {
   return unit_from_target;
 }
 
-// A graph and state of the unit frame, in the source frame: with M = unit_from_source,
-// g = M^-1 g', A = R^T A' R and t = (s R)^-1 t', which leaves E_rot as it is.
+// Converts a graph and a state from the unit frame to the source frame. With M = unit_from_source,
+// g = M^-1 g', A = R^T A' R and t = (s R)^-1 t', which does not change E_rot.
 Warp WarpInSourceFrame(const BuiltGraph& graph,
                        const DeformationState& state,
                        const std::vector<Eigen::Vector3d>& source_points,
@@ -87,10 +88,10 @@ std::vector<Correspondence> InUnitFrame(const std::vector<PointConstraint>& cons
   return correspondences;
 }
 
-// One fit: the steps of Fit() and what they share.
+// One fit: the steps of Fit() and the data that they share.
 class Fitter {
  public:
-  // `surface` is that of the source, as it is given; null: made where it is wanted.
+  // `surface` is the surface of the given source; if it is null, it is built when it is needed.
   Fitter(const FitInput& input,
          const FitOptions& options,
          const EnergyRegistry& registry,
@@ -103,12 +104,13 @@ class Fitter {
   void PlaceRigidly();
   FitOptions UnitOptions(const Surface& source, const Surface* target) const;
   void Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state);
-  // Moves `fitted` (the source as the nodes have it) onto the target and fills in the warp's
-  // finish.
+  // Moves every vertex of `fitted` (the source as warped by the nodes) onto the target, and stores
+  // the displacements as the finish of the warp.
   void FinishEveryVertex(const UnitFit& fit, const DeformationState& state, PointCloud* fitted);
-  // Lays faces of `fitted` flat that are folded, and adds that to the warp's finish.
+  // Lays folded faces of `fitted` flat, and adds the displacements to the finish of the warp.
   void Unfold(const UnitFit& fit, PointCloud* fitted);
-  // Adds displacements (one a point, unit frame) to the warp's finish, and applies the warp anew.
+  // Adds displacements (one per point, unit frame) to the finish of the warp, and applies the warp
+  // again.
   void AddToFinish(const std::vector<Eigen::Vector3d>& displacements, PointCloud* fitted);
   void WarnAboutReflections(const DeformationState& state);
 
@@ -149,7 +151,8 @@ FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) con
   options.matching.max_distance *= unit_from_target_.scale;
   options.matching.num_threads = options_.num_threads;
   if (target != nullptr) {
-    // What lies between two samples can't be told apart; bare points have no edges to go by.
+    // Distances below the resolution cannot be resolved by the samples. Bare points have no edges
+    // from which it could be derived, so it has a lower bound.
     const double edge =
         std::min(MeanEdgeLength(source.topology()), MeanEdgeLength(target->topology()));
     options.matching.resolution = std::max(0.1 * edge, 1e-4);

@@ -13,24 +13,26 @@ namespace ceres_ed {
 class EnergyRegistry;
 class Surface;
 
-// Fits `input`. Error: an input that can't be used, an unknown energy, bad options; the sentence
-// says what was expected. A solve that fails is a result with status kFailed.
+// Fits `input` and returns the result. It is an error if the input cannot be used, an energy is
+// unknown or an option is invalid; the message says what was expected. A solve that fails is not an
+// error but a result with the status kFailed.
 //
-// The gauge: there is no camera in a fit. The rigid part is found first and held; what the nodes do
-// is relative to it. Parts that nothing observes follow E_rot and E_reg.
+// The gauge: a fit has no camera. The rigid part is determined first and then held; the deformation
+// of the nodes is relative to it. Parts that nothing observes follow E_rot and E_reg.
 StatusOr<FitResult> Fit(const FitInput& input,
                         const FitOptions& options,
                         const EnergyRegistry& registry);
 
-// The same of two clouds alone, with default options and the built-in energies.
+// Fits two clouds with default options and the built-in energies.
 StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target);
 
-// Fits one source again and again: to the frames of a recording, to the shapes of a population.
-// What depends on the source alone (normals, connectivity, what closest points are searched in) is
-// made once. Results are those of Fit(), to the bit.
+// Fits one source many times, for example to the frames of a recording or to the shapes of a
+// population. Data that depend on the source only (normals, connectivity, search structures) are
+// computed once. The results are those of Fit(), with the same bits.
 class SurfaceFitter {
  public:
-  // `registry` must outlive it. Error: a source that can't be fitted, bad options.
+  // Returns a fitter of `source`. `registry` must outlive it. It is an error if the source cannot
+  // be fitted or an option is invalid.
   static StatusOr<std::unique_ptr<SurfaceFitter>> Create(PointCloud source,
                                                          const FitOptions& options,
                                                          const EnergyRegistry& registry);
@@ -41,8 +43,8 @@ class SurfaceFitter {
 
   const PointCloud& source() const { return source_; }
 
-  // Fits the source to `target`; landmarks and fixed points are those of FitInput. From several
-  // threads at once, too: nothing is shared that changes.
+  // Fits the source to `target`. Landmarks and fixed points have the meaning of FitInput. May be
+  // called from several threads at once, because no shared data change.
   StatusOr<FitResult> Fit(const PointCloud& target,
                           const std::vector<PointConstraint>& landmarks = {},
                           const std::vector<int>& fixed_points = {}) const;

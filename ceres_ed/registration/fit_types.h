@@ -1,4 +1,4 @@
-// What a fit takes, and what comes of it.
+// The input and the result of a fit.
 #ifndef CERES_ED_REGISTRATION_FIT_TYPES_H_
 #define CERES_ED_REGISTRATION_FIT_TYPES_H_
 
@@ -18,25 +18,27 @@
 
 namespace ceres_ed {
 
-// A source point and the place that it goes to.
+// A source point, and the position to which it should move.
 struct PointConstraint {
-  // Index into FitInput::source.
+  // The index of the point in FitInput::source.
   int point = -1;
-  // In the target frame and unit.
+  // The position in the target frame and unit.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-// What is fitted to what. A fit needs a target or landmarks.
+// The input of a fit. A target or landmarks are required.
 struct FitInput {
+  // The surface that is deformed.
   PointCloud source;
-  // Empty: landmarks alone.
+  // The surface to which the source is fitted; empty if there are only landmarks.
   PointCloud target;
+  // Source points with known positions in the target frame.
   std::vector<PointConstraint> landmarks;
-  // Source points that stay where they are. They settle the frame: there is no rigid stage then.
+  // Source points that do not move. They determine the frame, so that there is no rigid stage.
   std::vector<int> fixed_points;
 };
 
-// Seconds.
+// The times of the stages of a fit, in seconds.
 struct FitTimes {
   double prepare = 0.0;
   double rigid = 0.0;
@@ -46,62 +48,68 @@ struct FitTimes {
   double solve = 0.0;
   double level1 = 0.0;
   double level2 = 0.0;
-  // Of every vertex, unfolding included.
+  // The finish of every vertex, including unfolding.
   double finish = 0.0;
 };
 
-// How well the data determine the warp, by the residuals of the last round and what they leave:
+// How well the data determine the warp, derived from the residuals of the last round and their
+// values at its end:
 //   Cov(p) = s0^2 J_p (J^T J)^-1 J_p^T
-// with J the Jacobian of all weighted residuals, J_p that of a warped point (solver/
-// state_covariance.h) and s0^2 the variance factor of the data
-// (solver/covariance/variance_factor.h). It holds on these terms: the correspondences are right,
-// their errors independent; the rigid placement is known; E_rot and E_reg are Gaussian priors with
-// their last weights, relative to the data; the finish and unfolding add nothing.
+// Here J is the Jacobian of all weighted residuals, J_p the Jacobian of a warped point
+// (solver/covariance/state_covariance.h), and s0^2 the variance factor of the data
+// (solver/covariance/variance_factor.h). The result holds under these assumptions: the
+// correspondences are correct and their errors are independent; the rigid placement is known; E_rot
+// and E_reg are Gaussian priors with their last weights, relative to the data; the finish and the
+// unfolding add no uncertainty.
 struct FitUncertainty {
-  // Root of the trace of Cov(p), one a source point, in the source's unit; NaN where a node that
-  // carries the point is undetermined. Empty where it was not asked for, or could not be had: a
-  // warning says why.
+  // The square root of the trace of Cov(p) for each source point, in the unit of the source; NaN if
+  // a node to which the point is bound is undetermined. Empty if it was not requested or cannot be
+  // computed; in the second case a warning gives the reason.
   std::vector<double> std_dev;
-  // s0^2, of residuals as the objective weighs them, without units.
+  // s0^2 of the residuals as they are weighted in the objective, without unit.
   double variance_factor = 0.0;
-  // Nodes of the warp in a direction of which nothing says anything, ascending.
+  // The nodes of the warp that are undetermined in some direction, in ascending order.
   std::vector<int> undetermined_nodes;
-  // Seconds.
+  // The computation time in seconds.
   double time = 0.0;
 };
 
-// The outcome of a fit. It starts out failed.
+// The result of a fit. Its initial status is failed.
 struct FitResult {
   SolveStatus status = SolveStatus::kFailed;
   std::string message = "not fitted";
-  // In the source frame; takes any cloud there to the target frame.
+  // The warp, in the source frame. It maps any cloud in that frame to the target frame.
   Warp warp;
-  // The binding of the source's points to the warp's nodes.
+  // The binding of the source's points to the nodes of the warp.
   Skinning skinning;
-  // The source in the target frame and unit.
+  // The points and normals of the deformed source in the target frame and unit.
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> normals;
+  // target_from_source, the rigid placement.
   Similarity rigid;
-  // 1 for nodes that an observation touched in the last round.
+  // 1 for nodes that an observation depended on in the last round (PR nodes), else 0.
   std::vector<char> point_relevant;
-  // Of the last round, without units but for rms (target's unit; after the finish).
+  // The matches of the last round, without unit except for the rms values (in the target's unit;
+  // after the finish).
   Matches matches;
   EnergySummary initial_energy;
   EnergySummary final_energy;
   int outer_iterations = 0;
   int solver_iterations = 0;
-  // Largest distance of a fixed point from its place, target's unit; 0 where there are none.
+  // The largest distance of a fixed point from its position, in the target's unit; 0 if there are
+  // none.
   double max_fixed_error = 0.0;
-  // Whether the deformation explained less than the rigid placement, and was left out.
+  // Whether the deformation was discarded because it explained less than the rigid placement.
   bool rigid_only = false;
-  // Standard deviation of the target's noise across its surface, in its unit.
+  // The standard deviation of the target's noise across its surface, in the target's unit.
   double noise = 0.0;
-  // Faces that were folded over and were laid flat in the end.
+  // The number of faces that were folded over and have been laid flat.
   int unfolded = 0;
   FitUncertainty uncertainty;
   FitTimes times;
   std::vector<std::string> warnings;
 
+  // Returns whether the result can be used, that is, whether the fit has not failed.
   bool IsUsable() const { return status != SolveStatus::kFailed; }
 };
 

@@ -11,7 +11,7 @@
 namespace ceres_ed {
 namespace {
 
-// sqrt(tr(variance_factor Cov(p))) of every point.
+// Returns sqrt(tr(variance_factor Cov(p))) for every point.
 std::vector<double> PointDeviations(const StateCovariance& covariance,
                                     const Skinning& skinning,
                                     const std::vector<Eigen::Vector3d>& points,
@@ -21,7 +21,7 @@ std::vector<double> PointDeviations(const StateCovariance& covariance,
   ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
       const double trace = covariance.Point(points[p], skinning[p]).trace();
-      // Rounding may take a vanishing variance below zero.
+      // Rounding may make a variance near zero negative.
       deviations[p] = trace < 0.0 ? 0.0 : std::sqrt(variance_factor * trace);
     }
   });

@@ -1,4 +1,4 @@
-// How well the end of a fit is determined.
+// Computes how well the result of a fit is determined.
 #ifndef CERES_ED_REGISTRATION_FIT_UNCERTAINTY_H_
 #define CERES_ED_REGISTRATION_FIT_UNCERTAINTY_H_
 
@@ -12,15 +12,15 @@
 
 namespace ceres_ed {
 
-// Fills in `result->uncertainty`, with lengths in the unit frame, for `problem` at `state`, where
-// its last round ended; a warning says what is missing.
+// Fills in `result->uncertainty` for `problem` at `state`, the end of its last round. Lengths are
+// in the unit frame. If something is missing, a warning says so.
 void MeasureUncertainty(const UnitFit& fit,
                         const BuiltGraph& graph,
                         const FitProblem& problem,
                         const DeformationState& state,
                         FitResult* result);
 
-// Drops what it filled in, and warns.
+// Discards the uncertainty of `result`, and adds a warning with the reason `why`.
 void DropUncertainty(const std::string& why, FitResult* result);
 
 }  // namespace ceres_ed

@@ -9,8 +9,8 @@
 namespace ceres_ed {
 namespace {
 
-// Source and target whose diagonals differ by more than this share no scale: millimetres against
-// metres is 1000, a partial view of a body seldom less than a tenth of it.
+// The largest ratio of the diagonals of source and target. Millimetres against metres is a factor
+// of 1000, and a partial view of a body is rarely smaller than a tenth of it.
 constexpr double kMaxScaleRatio = 25.0;
 constexpr int kMinPoints = 4;
 

@@ -1,4 +1,4 @@
-// What a fit accepts.
+// Checks the input of a fit.
 #ifndef CERES_ED_REGISTRATION_FIT_VALIDATION_H_
 #define CERES_ED_REGISTRATION_FIT_VALIDATION_H_
 
@@ -7,11 +7,11 @@
 
 namespace ceres_ed {
 
-// Error: too few points, no extent.
+// Returns an error if the source has too few points or no extent.
 Status ValidateSource(const PointCloud& source);
 
-// Error: options out of range, too few points, no extent, indices that aren't there, surfaces that
-// share no scale.
+// Returns an error if options are out of range, if a cloud has too few points or no extent, if an
+// index is invalid, or if the sizes of the surfaces differ too much.
 Status ValidateFit(const FitInput& input, const FitOptions& options);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// What a matching of two surfaces found.
+// The result of matching two surfaces.
 #ifndef CERES_ED_REGISTRATION_MATCHES_H_
 #define CERES_ED_REGISTRATION_MATCHES_H_
 
@@ -8,15 +8,15 @@
 
 namespace ceres_ed {
 
-// What a matching found.
+// The pairs that a matching found, and their statistics.
 struct Matches {
   std::vector<Correspondence> correspondences;
-  // By Correspondence::detail; empty where they weren't asked for.
+  // Further data of the pairs, by Correspondence::detail; empty if they were not requested.
   std::vector<MatchDetail> details;
-  // Pairs that had a closest point at all, and those that were believed.
+  // The number of pairs with a closest point, and the number of pairs that were accepted.
   int candidates = 0;
   int inliers = 0;
-  // Root mean square point-to-plane and point-to-point distance of the inliers.
+  // The root mean square point-to-plane and point-to-point distance of the accepted pairs.
   double rms_plane = 0.0;
   double rms_point = 0.0;
   // 1.4826 times the median point-to-point distance of the candidates.

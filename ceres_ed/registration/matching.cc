@@ -13,10 +13,10 @@
 namespace ceres_ed {
 namespace {
 
-// A pair before it is believed.
+// A pair before it is accepted or rejected.
 struct Candidate {
   Correspondence match;
-  // From the target to the source.
+  // The vector from the target to the source.
   Eigen::Vector3d gap = Eigen::Vector3d::Zero();
   double distance = std::numeric_limits<double>::infinity();
   bool on_border = false;
@@ -25,7 +25,8 @@ struct Candidate {
   bool IsPlausible() const { return normals_agree && !on_border; }
 };
 
-// Whether two normals are near enough, up to sign where either surface knows them only so far.
+// Tests whether two normals are similar; up to sign if one of the surfaces knows them only up to
+// sign.
 class NormalTest {
  public:
   NormalTest(const Surface& a, const Surface& b, const MatchingOptions& options)
@@ -42,8 +43,9 @@ class NormalTest {
   bool oriented_;
 };
 
-// The mean of two normals, for the symmetric point-to-plane distance (Rusinkiewicz 2019): exact
-// along a second order curve through both points, so that surfaces may slide along each other.
+// Returns the mean of two normals for the symmetric point-to-plane distance (Rusinkiewicz 2019).
+// The distance is exact along a second-order curve through both points, so that surfaces can slide
+// along each other.
 Eigen::Vector3d PairNormal(const Eigen::Vector3d& source,
                            const Eigen::Vector3d& target,
                            const MatchingOptions& options) {
@@ -53,14 +55,15 @@ Eigen::Vector3d PairNormal(const Eigen::Vector3d& source,
   return norm > 0.0 ? Eigen::Vector3d(sum / norm) : target;
 }
 
-// How far a target point at `gap` is from the disc of `radius` around a source point.
+// Returns the distance of a target point at `gap` from the disc of `radius` around a source point.
 double DistanceFromDisc(const Eigen::Vector3d& gap, const Eigen::Vector3d& normal, double radius) {
   const double across = normal.dot(gap);
   const double along = std::sqrt(std::max(0.0, gap.squaredNorm() - across * across));
   return std::hypot(across, std::max(0.0, along - radius));
 }
 
-// `normal` is that of `point` of the source as it is warped now.
+// Returns the data of a pair. `normal` is the normal of the source's `point` under the present
+// warp.
 MatchDetail Detail(const MovedSource& source,
                    int point,
                    const Eigen::Vector3d& normal,
@@ -76,7 +79,7 @@ MatchDetail Detail(const MovedSource& source,
   return detail;
 }
 
-// `details` may be null: of the same pairs as `candidates`.
+// `details` may be null; otherwise it has one entry per candidate.
 void MatchForward(const MovedSource& source,
                   const Surface& target,
                   const MatchingOptions& options,
@@ -126,7 +129,7 @@ void MatchBackward(const MovedSource& source,
   if (samples.empty() || target_samples.empty()) return;
   const NormalTest normals(*source.rest, target, options);
   const KdTree& tree = *memory->source_tree;
-  // Samples stand for the points between them, too.
+  // Each sample also represents the points between the samples, so its disc is larger.
   const double spread = std::sqrt(static_cast<double>(source.rest->cloud().size()) /
                                   static_cast<double>(samples.size()));
   const int count = static_cast<int>(target_samples.size());
@@ -161,7 +164,7 @@ void MatchBackward(const MovedSource& source,
   });
 }
 
-// Brings the trees and orders up to date.
+// Updates the trees and orders in `memory`.
 void Prepare(const MovedSource& source,
              const Surface& target,
              const std::vector<int>& target_samples,
@@ -187,8 +190,8 @@ double MedianDistance(const std::vector<Candidate>& candidates) {
   return Median(std::move(distances));
 }
 
-// The candidates of the source's samples, then those of the target's; `details`, one each, may be
-// null.
+// Returns the candidates of the source samples, followed by those of the target samples. `details`
+// has one entry per candidate and may be null.
 std::vector<Candidate> FindCandidates(const MovedSource& source,
                                       const Surface& target,
                                       const std::vector<int>& target_samples,

@@ -1,4 +1,4 @@
-// Closest-point correspondences between a moving source and a target, both ways.
+// Finds closest-point correspondences between a moving source and a target, in both directions.
 #ifndef CERES_ED_REGISTRATION_MATCHING_H_
 #define CERES_ED_REGISTRATION_MATCHING_H_
 
@@ -16,44 +16,49 @@
 
 namespace ceres_ed {
 
-// A moving source: some points of a surface as they are now.
+// A moving source: sampled points of a surface at their present positions.
 struct MovedSource {
+  // The surface at rest.
   const Surface* rest = nullptr;
-  // Indices into `rest`.
+  // The samples, as indices into `rest`.
   const std::vector<int>* samples = nullptr;
-  // One a sample.
+  // The present point and normal of each sample.
   const std::vector<Eigen::Vector3d>* points = nullptr;
   const std::vector<Eigen::Vector3d>* normals = nullptr;
 };
 
-// Where a matching found its closest points. The next one of the same samples starts from there,
-// which makes it faster and changes nothing.
+// The closest points of a matching. The next matching of the same samples starts its searches from
+// them, which makes it faster and does not change the result.
 struct MatchMemory {
-  // Of the samples of the source, on the target (SurfaceHit::place); -1 where there is none.
+  // For each source sample, its closest place on the target (SurfaceHit::place), or -1 if there is
+  // none.
   std::vector<int> on_target;
-  // Of the samples of the target, among the samples of the source; -1 where there is none.
+  // For each target sample, its closest source sample, or -1 if there is none.
   std::vector<int> in_source;
-  // Of the samples of the source, and the vector that it refers to: another one gets another tree.
+  // The search tree of the source samples, and the vector to which it refers. The tree is built
+  // again for another vector.
   std::unique_ptr<KdTree> source_tree;
   const std::vector<Eigen::Vector3d>* source_points = nullptr;
-  // The samples of the target, such that neighbours are near each other.
+  // The target samples in an order in which neighbours are near each other.
   std::vector<int> target_order;
 };
 
-// Pairs each sample of the source with its closest point on the target, and each of
-// `target_samples` with the sample of the source that is closest to it. Normals of pairs are the
-// mean of both surfaces' (symmetric point-to-plane), so that points on one arc are at no distance
-// along it; what lies aside within the disc that a sample stands for doesn't count as distance. A
-// pair is rejected by distance, by the angle between the normals, and where the closest point lies
-// on the border of its surface (the other side goes on where this one ends). Weights are relative
-// areas; those of each direction sum to at most 1. `memory` may be null.
+// Pairs each source sample with its closest point on the target, and each of `target_samples` with
+// its closest source sample.
+//
+// The normal of a pair is the mean of the normals of both surfaces (symmetric point-to-plane), so
+// that two points on one arc have no distance along it. A source sample represents a disc; a
+// lateral offset within this disc does not count as distance. A pair is rejected because of its
+// distance, because of the angle between the normals, or because the closest point lies on the
+// border of its surface, where the other surface continues beyond it. Weights are relative areas;
+// the weights of each direction sum to at most 1. `memory` may be null.
 Matches MatchBothWays(const MovedSource& source,
                       const Surface& target,
                       const std::vector<int>& target_samples,
                       const MatchingOptions& options,
                       MatchMemory* memory = nullptr);
 
-// How much of each surface is left unmatched, in [0, 1].
+// The unmatched share of each surface, in [0, 1].
 struct Unmatched {
   double source = 1.0;
   double target = 1.0;
@@ -61,8 +66,8 @@ struct Unmatched {
   double Mean() const { return 0.5 * (source + target); }
 };
 
-// The mean over the samples of each surface of d^2 / (d^2 + width^2), with 1 where there is no
-// closest point or the normals disagree; 1 without samples.
+// Returns the mean over the samples of each surface of d^2 / (d^2 + width^2), which is 1 for a
+// sample without a closest point or with disagreeing normals. Without samples the result is 1.
 Unmatched FindUnmatched(const MovedSource& source,
                         const Surface& target,
                         const std::vector<int>& target_samples,

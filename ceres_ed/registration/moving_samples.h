@@ -1,4 +1,4 @@
-// The points of a source that a fit watches, as the nodes move them.
+// Samples of a source surface that move with the nodes during a fit.
 #ifndef CERES_ED_REGISTRATION_MOVING_SAMPLES_H_
 #define CERES_ED_REGISTRATION_MOVING_SAMPLES_H_
 
@@ -13,16 +13,17 @@
 
 namespace ceres_ed {
 
-// Samples of a surface, warped by a graph over it. Both must outlive this.
+// Samples of a surface, warped by a graph on it. Both must outlive this object.
 class MovingSamples {
  public:
+  // Chooses about `count` points of `source`.
   MovingSamples(const Surface& source, const BuiltGraph& graph, int count);
 
-  // Warps the samples, and returns how far they went in the mean since the last call (from rest at
-  // the first one), in the unit of the surface; 0 without samples.
+  // Warps the samples. Returns the mean distance that they moved since the last call (at the first
+  // call: from rest), in the unit of the surface; 0 if there are no samples.
   double Move(const DeformationState& state, int num_threads);
 
-  // Refers to this object.
+  // Returns the samples at their present positions; the result refers to this object.
   MovedSource Moved() const { return {source_, &samples_, &points_, &normals_}; }
 
  private:

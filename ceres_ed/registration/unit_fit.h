@@ -1,4 +1,4 @@
-// What every step of a fit works on.
+// The data that all steps of a fit share.
 #ifndef CERES_ED_REGISTRATION_UNIT_FIT_H_
 #define CERES_ED_REGISTRATION_UNIT_FIT_H_
 
@@ -11,18 +11,19 @@
 
 namespace ceres_ed {
 
-// What a fit is about, all in the unit frame. The pointers must outlive the fit.
+// The surfaces, options and constraints of a fit, all in the unit frame. The pointers must outlive
+// the fit.
 struct UnitFit {
   const Surface* source = nullptr;
-  // Null: landmarks alone.
+  // The target; null if there are only landmarks.
   const Surface* target = nullptr;
   const FitOptions* options = nullptr;
   const EnergyRegistry* registry = nullptr;
   std::vector<Correspondence> landmarks;
   std::vector<Correspondence> fixed;
-  // Standard deviation of the noise of `target`.
+  // The standard deviation of the noise of `target`.
   double noise = 0.0;
-  // Started with the fit.
+  // A timer that was started with the fit.
   const Timer* clock = nullptr;
 };
 

@@ -12,11 +12,11 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kSide = 120;
-// No border effect comes this far in, in edges.
+// Effects of the border reach less far inward than this, in edges.
 constexpr int kMargin = 15;
 
-// kSide x kSide vertices in the plane z = 0; each that is on no border has six neighbours at
-// distance 1.
+// Returns kSide x kSide vertices in the plane z = 0. Each vertex that is not on the border has six
+// neighbours at distance 1.
 PointCloud MakeTriangularLattice() {
   PointCloud mesh;
   const double row_height = 0.5 * std::sqrt(3.0);
@@ -46,7 +46,7 @@ PointCloud WithHeights(PointCloud cloud, double sigma, unsigned seed) {
   return cloud;
 }
 
-// The points of the lattice that are far from its border.
+// Returns the points of the lattice that are far from its border.
 std::vector<int> Inner() {
   std::vector<int> inner;
   for (int r = kMargin; r < kSide - kMargin; ++r) {
@@ -55,9 +55,9 @@ std::vector<int> Inner() {
   return inner;
 }
 
-// What smoothing of a length leaves of white noise of deviation 1 on the lattice: mean squares over
-// its waves. The mean of its neighbours' values less its own is -lap of a wave's value, so that
-// (1 / l^4 + lap^2) z = x / l^4.
+// The remaining part of white noise of deviation 1 on the lattice after smoothing with a length:
+// mean squares over its waves. For a wave, the mean of the neighbours' values minus its own value
+// is -lap times its value, so that (1 / l^4 + lap^2) z = x / l^4.
 struct Transfer {
   double noise = 0.0;
   double slope = 0.0;
@@ -91,10 +91,10 @@ TEST(Denoise, LeavesOfWhiteNoiseWhatItsWavesLeave) {
     const std::vector<int> inner = Inner();
     for (const int p : inner) squares += std::pow(denoised.cloud.points[p].z(), 2);
     const double left = std::sqrt(squares / static_cast<double>(inner.size()));
-    // The deviation of 8100 values that share 2.2 l edges of neighbourhood scatters by 3 % at l
-    // = 2.
+    // The deviation of 8100 values that share 2.2 l edges of neighbourhood is known to 3 % at l =
+    // 2.
     EXPECT_NEAR(left, sigma * TransferOf(denoised.length).noise, 0.09 * left) << sigma;
-    // The law that it reports is that of long waves: below l = 1.5 more than that is left.
+    // The reported law is that of long waves; below l = 1.5 more noise remains.
     EXPECT_NEAR(denoised.noise, left, 0.2 * left) << sigma;
   }
 }
@@ -144,8 +144,8 @@ TEST(Denoise, KeepsTheBorderInItsPlaceAlongTheSurface) {
     const int r = p / kSide;
     const int c = p % kSide;
     if (r > 0 && r + 1 < kSide && c > 0 && c + 1 < kSide) continue;
-    // Every move is along a normal that noise turns: 0.3 * 0.1 of an edge. Plain smoothing would
-    // draw the border in by a good part of an edge.
+    // Every displacement is along a normal that noise rotates: 0.3 * 0.1 of an edge. Plain
+    // smoothing would move the border inward by a considerable part of an edge.
     squares += (denoised.cloud.points[p] - noisy.points[p]).head<2>().squaredNorm();
     ++count;
   }
@@ -158,8 +158,8 @@ TEST(Denoise, KeepsTheRadiusOfASphere) {
   const double edge = MeanEdgeLength(surface.topology());
   const Denoised denoised = Denoise(surface, edge);
   ASSERT_GT(denoised.length, 2.0);
-  // The mean of six neighbours at distance h lies h^2 / (2 R) below: of waves of first degree
-  // 1 / (1 + (l h / R)^4 / 4) is left.
+  // The mean of six neighbours at distance h lies h^2 / (2 R) below the vertex; the remaining part
+  // of waves of first degree is 1 / (1 + (l h / R)^4 / 4).
   const double shrinkage = std::pow(denoised.length * edge, 4) / 4.0;
   double mean = 0.0;
   for (const Eigen::Vector3d& point : denoised.cloud.points) {
@@ -185,7 +185,7 @@ TEST(Denoise, SmoothsBarePoints) {
     after += std::pow(denoised.cloud.points[p].z(), 2);
     EXPECT_GE(denoised.cloud.normals[p].dot(surface.cloud().normals[p]), 0.0);
   }
-  // On the mesh 0.36 of it are left at this length.
+  // On this mesh a share of 0.36 remains at this length.
   EXPECT_LT(std::sqrt(after), 0.5 * std::sqrt(before));
 }
 
@@ -210,14 +210,14 @@ TEST(Denoise, KeepsTrianglesThatShareNoVerticesTogether) {
   ASSERT_EQ(denoised.cloud.size(), loose.size());
   EXPECT_EQ(denoised.cloud.triangles, loose.triangles);
   for (std::size_t p = 0; p < loose.size(); ++p) {
-    // The order of the sums differs.
+    // The sums have a different order.
     EXPECT_LT((denoised.cloud.points[p] - expected.cloud.points[origin[p]]).norm(), 1e-9) << p;
   }
 }
 
 TEST(Denoise, KeepsTheSideOfNormalsThatAreGiven) {
   PointCloud noisy = WithHeights(MakeTriangularLattice(), 0.3, 17);
-  // Wound the other way than its normals look.
+  // The triangles are wound against the normals.
   noisy.normals.assign(noisy.size(), -Eigen::Vector3d::UnitZ());
   const Denoised denoised = Denoise(Surface(noisy), 0.3);
   ASSERT_EQ(denoised.cloud.size(), noisy.size());

@@ -1,4 +1,4 @@
-// What a fit makes of a noisy target.
+// Fits to noisy targets.
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/simulation/pairs.h>
@@ -20,7 +20,8 @@ double MeanError(const std::vector<Eigen::Vector3d>& points, const PointCloud& t
   return sum / static_cast<double>(points.size());
 }
 
-// What the rigid motion leaves that the truth itself determines.
+// Returns the error that remains after the best rigid motion, which is determined from the truth
+// itself.
 double BestRigidError(const SyntheticPair& pair) {
   const StatusOr<Similarity> best =
       Similarity::FitPoints(pair.source.points, pair.truth.points, false);
@@ -40,7 +41,7 @@ TEST_P(NoisyTarget, IsFittedBetterThanByTheBestRigidMotion) {
   ASSERT_TRUE(fit.ok()) << fit.status().message();
   ASSERT_TRUE(fit->IsUsable()) << fit->message;
   EXPECT_LT(MeanError(fit->points, pair.truth), BestRigidError(pair));
-  // As near as the estimate comes.
+  // The accuracy of the estimate.
   EXPECT_NEAR(fit->noise, sigma, 0.15 * sigma);
 }
 

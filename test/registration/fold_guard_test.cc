@@ -11,7 +11,7 @@ namespace {
 
 class FoldGuard : public ::testing::Test {
  protected:
-  // Triangles whose normal doesn't point up.
+  // Returns the number of triangles whose normal does not point up.
   int NumDown(const std::vector<Eigen::Vector3d>& points) const {
     int down = 0;
     for (const auto& t : mesh_.triangles) {
@@ -44,7 +44,7 @@ TEST_F(FoldGuard, LeavesNoTriangleTurnedOver) {
   ASSERT_GT(NumDown(points), 3);
   EXPECT_GT(DampFolds(mesh_, start_, up_, &points), 2);
   EXPECT_EQ(NumDown(points), 0);
-  // Far away nothing happens.
+  // Far away nothing changes.
   EXPECT_EQ(points[8], start_[8]);
 }
 

@@ -1,4 +1,4 @@
-// What matching tells of both sides of a pair.
+// Tests the details of both sides that matching returns for a pair.
 #include <ceres_ed/registration/matching.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ double Brightness(const Eigen::Vector3d& point) {
   return 0.5 + 0.02 * point.x() - 0.03 * point.y();
 }
 
-// A flat grid of (side x side) points, one unit apart, facing +z, as bright as Brightness() at
-// `look` off each point.
+// Returns a flat grid of (side x side) points, one unit apart, facing +z. Its brightness is that of
+// Brightness() at an offset `look` from each point.
 PointCloud MakeSheet(int side, const Eigen::Vector3d& origin, const Eigen::Vector3d& look) {
   PointCloud sheet;
   for (int r = 0; r < side; ++r) {
@@ -50,7 +50,7 @@ class MatchDetails : public ::testing::Test {
     }
   }
 
-  // Of the source turned by `turn_`.
+  // Matches the source rotated by `turn_`.
   Matches Match(const Surface& target) const {
     const std::vector<int> all = All(source_.cloud());
     return MatchBothWays(

@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// A flat grid of (columns x rows) points, one unit apart, facing +z.
+// Returns a flat grid of (columns x rows) points, one unit apart, facing +z.
 PointCloud MakeGrid(int columns, int rows, const Eigen::Vector3d& origin) {
   PointCloud grid;
   for (int r = 0; r < rows; ++r) {
@@ -32,7 +32,7 @@ std::vector<int> All(const PointCloud& cloud) {
   return indices;
 }
 
-// Matches all points of a source where they are with some of a target.
+// Matches all points of a source at rest with some points of a target.
 Matches MatchAtRest(const Surface& source,
                     const Surface& target,
                     const std::vector<int>& target_samples,
@@ -49,7 +49,7 @@ Matches MatchAtRest(const Surface& source, const Surface& target, const Matching
 }
 
 TEST(Matching, FindsTheFootOfThePerpendicularBothWays) {
-  // The source lies inside the target's outline, 0.2 above it and between its points.
+  // The source lies inside the outline of the target, 0.2 above it and between its points.
   const Surface source(MakeGrid(4, 4, {2.5, 2.5, 0.2}));
   const Surface target(MakeGrid(9, 9, {0.0, 0.0, 0.0}));
   const Matches matches = MatchAtRest(source, target, MatchingOptions());
@@ -60,7 +60,8 @@ TEST(Matching, FindsTheFootOfThePerpendicularBothWays) {
     EXPECT_NEAR(match.target.z(), 0.0, 1e-12);
     if ((match.target - point).head<2>().norm() < 1e-12) ++forward;
   }
-  // All 16 source points, and back to the four inner points that are on no border.
+  // All 16 source points, and in the other direction the four inner points that are not on the
+  // border.
   EXPECT_EQ(forward, 16);
   EXPECT_GT(matches.inliers, 16);
   EXPECT_NEAR(matches.rms_plane, 0.2, 1e-12);
@@ -68,7 +69,7 @@ TEST(Matching, FindsTheFootOfThePerpendicularBothWays) {
 }
 
 TEST(Matching, RejectsWhatLiesBeyondABorder) {
-  // Two thirds of the source hang over the target's edge at x = 4.
+  // Two thirds of the source lie beyond the target's edge at x = 4.
   const Surface source(MakeGrid(9, 5, {2.0, 2.0, 0.1}));
   const Surface target(MakeGrid(5, 9, {0.0, 0.0, 0.0}));
   const Matches matches = MatchAtRest(source, target, MatchingOptions());
@@ -95,7 +96,8 @@ TEST(Matching, RejectsWhatIsTooFar) {
   options.max_distance = 0.4;
   EXPECT_EQ(MatchAtRest(source, target, options).inliers, 0);
 
-  // One point far above many near ones goes by its deviation, and stays within the resolution.
+  // One point far above many near ones is rejected by its deviation, and accepted within the
+  // resolution.
   PointCloud bent = MakeGrid(4, 4, {2.5, 2.5, 0.1});
   bent.points[5].z() = 2.0;
   bent.normals.assign(bent.size(), Eigen::Vector3d::UnitZ());
@@ -115,7 +117,7 @@ TEST(Matching, RejectsWhatIsTooFar) {
   EXPECT_TRUE(has_point_5(MatchAtRest(bent_source, target, std::vector<int>(), options)));
 }
 
-// Random points on the unit sphere with their normals.
+// Returns random points on the unit sphere with their normals.
 PointCloud MakeBareSphere(int count, unsigned seed) {
   std::mt19937 random(seed);
   std::normal_distribution<double> gaussian;
@@ -138,7 +140,7 @@ TEST(Matching, TakesTheNormalHalfWayBetweenThoseOfTheTwoSurfaces) {
     const Eigen::Vector3d half_way = source.cloud().normals[match.point] + match.target;
     EXPECT_LT((match.normal - half_way.normalized()).norm(), 1e-12);
   }
-  // Points of one sphere lie on each other's symmetric planes: (p - q).(p + q) = 0.
+  // Points of the same sphere lie on each other's symmetric planes: (p - q).(p + q) = 0.
   EXPECT_GT(matches.rms_point, 0.05);
   EXPECT_LT(matches.rms_plane, 1e-12);
 }
@@ -154,8 +156,8 @@ TEST(Matching, TakesThatNormalUpToSignWhereSignsAreUnknown) {
   EXPECT_LT(matches.rms_plane, 1e-12);
 }
 
-// The pairs of one target point that faces +z with a source grid in z = 0, no farther apart than
-// `reach` as the matching measures it.
+// Returns the pairs of one target point that faces +z with a source grid in z = 0, not farther
+// apart than `reach` as the matching measures it.
 Matches MatchBack(const Eigen::Vector3d& target_point, double reach) {
   PointCloud cloud;
   cloud.points = {target_point};
@@ -167,13 +169,13 @@ Matches MatchBack(const Eigen::Vector3d& target_point, double reach) {
 }
 
 TEST(Matching, CountsNoDistanceWithinTheDiscOfASourcePoint) {
-  // An inner point stands for an area of 1, a disc of radius 0.56; (0.3, 0.4) is within.
+  // An inner point represents an area of 1, a disc of radius 0.56, which contains (0.3, 0.4).
   for (const double height : {0.0, 0.2}) {
     EXPECT_EQ(MatchBack({3.3, 3.4, height}, height / 2.0).inliers, height > 0.0 ? 0 : 1);
     const Matches matches = MatchBack({3.3, 3.4, height}, height + 1e-6);
     ASSERT_EQ(matches.inliers, 1);
     EXPECT_EQ(matches.correspondences[0].point, 3 * 7 + 3);
-    // The symmetric plane goes through the target point itself.
+    // The symmetric plane passes through the target point itself.
     EXPECT_LT((matches.correspondences[0].target - Eigen::Vector3d(3.3, 3.4, height)).norm(),
               1e-12);
     EXPECT_NEAR(matches.rms_plane, height, 1e-12);
@@ -181,7 +183,7 @@ TEST(Matching, CountsNoDistanceWithinTheDiscOfASourcePoint) {
 }
 
 TEST(Matching, CountsTheDistanceBeyondThatDiscFromItsRim) {
-  // In the middle of a cell, sqrt(1/2) from its corners.
+  // The middle of a cell is sqrt(1/2) from its corners.
   const double distance = std::sqrt(0.5) - std::sqrt(1.0 / M_PI);
   EXPECT_EQ(MatchBack({3.5, 3.5, 0.0}, distance - 1e-6).inliers, 0);
   EXPECT_EQ(MatchBack({3.5, 3.5, 0.0}, distance + 1e-6).inliers, 1);
@@ -212,7 +214,7 @@ TEST(Matching, WeighsEachDirectionByAreaToAtMostOne) {
   double sum = 0.0;
   for (const Correspondence& match : forward.correspondences) sum += match.weight;
   EXPECT_NEAR(sum, 1.0, 1e-12);
-  // A corner stands for less area than an inner point.
+  // A corner represents less area than an inner point.
   EXPECT_LT(source.relative_areas()[0], source.relative_areas()[7]);
 }
 
@@ -224,7 +226,7 @@ TEST(Matching, NothingIsUnmatchedOnACopyAndAllOutOfReach) {
   std::vector<Eigen::Vector3d> lifted = target.cloud().points;
   for (Eigen::Vector3d& point : lifted) point.z() += 0.1;
   const MovedSource above{&target, &all, &lifted, &target.cloud().normals};
-  // d = width: d^2 / (d^2 + width^2) = 1 / 2.
+  // With d = width, d^2 / (d^2 + width^2) = 1 / 2.
   EXPECT_NEAR(FindUnmatched(above, target, all, 0.1, MatchingOptions()).Mean(), 0.5, 1e-9);
   MatchingOptions near;
   near.max_distance = 0.01;

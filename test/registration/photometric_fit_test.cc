@@ -1,4 +1,4 @@
-// A textured sheet that has slid along itself: only its brightness tells.
+// Fits a textured sheet that has slid along itself, so that only its brightness shows the motion.
 #include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/registration/fit.h>
 
@@ -11,7 +11,7 @@
 namespace ceres_ed {
 namespace {
 
-// How far the source has to go: less than a quarter of a wave of the texture.
+// The displacement of the source, which is less than a quarter of a wave of the texture.
 const Eigen::Vector3d kSlide(0.06, -0.04, 0.0);
 constexpr double kWaveNumber = 2.0 * M_PI / 0.8;
 constexpr double kSpacing = 0.025;
@@ -20,7 +20,7 @@ double Texture(const Eigen::Vector3d& place) {
   return 0.5 + 0.2 * std::sin(kWaveNumber * place.x()) + 0.2 * std::cos(kWaveNumber * place.y());
 }
 
-// A flat square around `center`, with the texture as it is at `look` off each point.
+// Returns a flat square around `center`, with the texture at an offset `look` from each point.
 PointCloud MakeSheet(int side, const Eigen::Vector3d& center, const Eigen::Vector3d& look) {
   PointCloud sheet;
   const double half = 0.5 * kSpacing * (side - 1);
@@ -50,12 +50,12 @@ FitInput SlidSheet() {
 
 struct Motion {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  // Of a point from where it belongs.
+  // The largest distance of a point from its correct position.
   double largest_error = 0.0;
 };
 
-// The sheet stays as stiff as it is at first: where the texture has an extremum nothing but
-// stiffness holds a point along it.
+// Returns options with which the sheet keeps its initial stiffness: at an extremum of the texture
+// only the stiffness holds a point along it.
 FitOptions StiffOptions() {
   FitOptions options;
   options.finish = false;
@@ -77,8 +77,8 @@ Motion FitMotion(const FitInput& input, FitOptions options, bool photometric) {
   return motion;
 }
 
-// What is linear between points is off by the texture's curvature: spacing^2 * wave number / 8 as a
-// distance. The fit stands still within 2e-4 of the source's diagonal.
+// Linear interpolation between points has an error from the texture's curvature: spacing^2 * wave
+// number / 8 as a distance. The fit converges within 2e-4 of the source's diagonal.
 constexpr double kTolerance = kSpacing * kSpacing * kWaveNumber / 8.0 + 2e-4 * 1.4142135623730951;
 
 TEST(PhotometricFit, RecoversASlideThatDistancesDoNotSee) {
@@ -90,7 +90,8 @@ TEST(PhotometricFit, RecoversASlideThatDistancesDoNotSee) {
   EXPECT_GT((without.mean - kSlide).norm(), 0.9 * kSlide.norm());
 }
 
-// Borders of bare points aren't known: what the target has beyond the source has to be too far.
+// The borders of bare points are not known, so the part of the target beyond the source must be too
+// far away.
 TEST(PhotometricFit, DoesSoOnBarePoints) {
   FitInput input = SlidSheet();
   input.source.triangles.clear();
@@ -103,7 +104,7 @@ TEST(PhotometricFit, DoesSoOnBarePoints) {
   EXPECT_GT((without.mean - kSlide).norm(), 0.9 * kSlide.norm());
 }
 
-// The weak stiffness that a fit ends with by default lets points slip along the extrema.
+// With the low final stiffness of the defaults, points can slip along the extrema.
 TEST(PhotometricFit, ComesNearTheSlideAsFitsAreByDefault) {
   FitOptions options;
   options.finish = false;

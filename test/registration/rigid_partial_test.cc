@@ -1,4 +1,4 @@
-// Targets that show a part of the source, turned far away, deformed and noisy.
+// Aligns targets that show a part of the source, rotated far away, deformed and noisy.
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/rigid/rigid_registration.h>
 #include <ceres_ed/simulation/deformations.h>
@@ -24,8 +24,8 @@ struct PartialPair {
   double overlap = 0.0;
 };
 
-// The side of a deformed body that a near camera sees, turned by `angle_deg` and moved by more than
-// its own length.
+// Returns the side of a deformed body that a near camera sees, rotated by `angle_deg` and moved by
+// more than its own length.
 PartialPair MakePartialPair(double angle_deg, double noise, double phase = 0.5) {
   PartialPair pair;
   pair.source = MakeSyntheticShape(kShape, 3000, kSize);
@@ -46,7 +46,7 @@ PartialPair MakePartialPair(double angle_deg, double noise, double phase = 0.5) 
   return pair;
 }
 
-// Mean distance from the truth in percent of the source's diagonal.
+// Returns the mean distance from the truth in percent of the source's diagonal.
 double MeanError(const PartialPair& pair, const Similarity& pose) {
   double sum = 0.0;
   for (std::size_t i = 0; i < pair.source.size(); ++i) {
@@ -68,8 +68,8 @@ TEST_P(RigidPartialTarget, IsFoundWhereverItIs) {
   const RigidResult result =
       AlignRigid(Surface(pair.source), Surface(pair.target), Similarity(), RigidOptions());
   EXPECT_GT(MeanError(pair, Similarity()), 30.0);
-  // The unseen part bends too, and no rigid alignment can know how; noise adds a slide along the
-  // smooth side, no more than what bends back.
+  // The unseen part deforms too, which no rigid alignment can know. Noise adds a slide along the
+  // smooth side, which is no more than what the deformation can correct.
   const double slack = noise_percent > 1.0 ? 2.0 : 1.0;
   EXPECT_LT(MeanError(pair, result.target_from_source), 1.5 * LeastError(pair) + slack);
 }
@@ -87,7 +87,7 @@ TEST(RigidPartial, NearItsPlaceIsNotSearchedFor) {
   EXPECT_LT(MeanError(pair, result.target_from_source), 1.5 * LeastError(pair) + 1.0);
 }
 
-// The search must run and still leave the pose.
+// The search must run and still keep the pose.
 TEST(RigidPartial, NearItsPlaceIsNotMovedAwayByTheSearch) {
   const PartialPair pair = MakePartialPair(0.0, 0.0);
   RigidOptions options;

@@ -32,7 +32,7 @@ PointCloud Moved(const Similarity& pose, const PointCloud& cloud) {
   return moved;
 }
 
-// Largest distance between where two poses take the points, in percent of their diagonal.
+// Returns the largest distance between the points under two poses, in percent of their diagonal.
 double LargestGap(const Similarity& a, const Similarity& b, const PointCloud& cloud) {
   double gap = 0.0;
   for (const Eigen::Vector3d& point : cloud.points) {
@@ -43,7 +43,7 @@ double LargestGap(const Similarity& a, const Similarity& b, const PointCloud& cl
 
 class RigidRegistrationOfTurns : public testing::TestWithParam<double> {};
 
-// Near and far turns, the target a whole body away.
+// Small and large rotations; the target is a whole body length away.
 TEST_P(RigidRegistrationOfTurns, RecoversTheMotionOfACopy) {
   const PointCloud body = MakeSyntheticShape(SyntheticShape::kDolphin, 1500, 1.0);
   const Similarity truth = MakePose(GetParam(), {0.3, -1.0, 0.5}, {1.2, -0.4, 0.8});
@@ -68,12 +68,12 @@ TEST(RigidRegistration, RecoversAScaleWhenAsked) {
   EXPECT_LT(LargestGap(truth, result.target_from_source, body), 0.05);
 }
 
-// A flat sheet may lie anywhere in its plane as far as distances go: it stays where it is.
+// Distances do not determine the position of a flat sheet in its plane, so it keeps it.
 TEST(RigidRegistration, LeavesWhatNothingDetermines) {
   const PointCloud sheet = MakeSyntheticShape(SyntheticShape::kPlane, 900, 0.2);
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : sheet.points) center += point / sheet.size();
-  // Larger than the source, so that no border pulls, and lifted by 2 mm.
+  // The target is larger than the source, so that no border attracts it, and it is raised by 2 mm.
   PointCloud target = sheet;
   const Eigen::Vector3d lift(0.0, 0.0, 0.002);
   for (Eigen::Vector3d& point : target.points) point = center + 1.5 * (point - center) + lift;

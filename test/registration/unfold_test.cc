@@ -18,7 +18,7 @@ namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// By SVD, with every pair of the triangles' corners as an edge once.
+// Returns the rotations computed by SVD, with every edge of the triangles used once.
 std::vector<Eigen::Matrix3d> RotationsBySvd(const WeldedMesh& mesh,
                                             const Points& rest,
                                             const Points& points) {
@@ -40,7 +40,8 @@ std::vector<Eigen::Matrix3d> RotationsBySvd(const WeldedMesh& mesh,
   return rotations;
 }
 
-// Faces turned over, and no face below 5 % of its area unless its surroundings are, too.
+// Returns the faces that are turned over, and those below 5 % of their area unless their
+// surroundings are, too.
 std::vector<int> FoldedByBruteForce(const WeldedMesh& mesh,
                                     const Points& rest,
                                     const Points& points) {
@@ -69,7 +70,7 @@ std::vector<int> FoldedByBruteForce(const WeldedMesh& mesh,
   return folded;
 }
 
-// A sphere that is turned and stretched, and the same with a patch crumpled.
+// A sphere that is rotated and stretched, and the same sphere with a crumpled patch.
 class Unfold : public ::testing::Test {
  protected:
   Unfold() {
@@ -109,7 +110,8 @@ TEST(NearestRotation, IsThatOfTheSvd) {
     const Eigen::JacobiSVD<Eigen::Matrix3d> svd(B, Eigen::ComputeFullU | Eigen::ComputeFullV);
     const Eigen::Vector3d sign(1, 1, svd.matrixU().determinant() * svd.matrixV().determinant());
     const Eigen::Matrix3d R = NearestRotation(B);
-    // What is maximal, since the rotation itself is ill-conditioned where singular values cancel.
+    // The maximum itself is compared, because the rotation is ill-conditioned where singular values
+    // cancel.
     EXPECT_NEAR((R.transpose() * B).trace(), sign.dot(svd.singularValues()), 1e-9) << k;
     EXPECT_NEAR((R.transpose() * R - Eigen::Matrix3d::Identity()).norm(), 0.0, 1e-6) << k;
     EXPECT_NEAR(R.determinant(), 1.0, 1e-6) << k;
@@ -119,7 +121,7 @@ TEST(NearestRotation, IsThatOfTheSvd) {
 TEST_F(Unfold, FindsWhatBruteForceFinds) {
   ASSERT_GT(NumFolded(folded_), 20);
   EXPECT_EQ(FoldFinder(mesh_, rest_).FindAll(folded_), FoldedByBruteForce(mesh_, rest_, folded_));
-  // Squeezed flat, turned over by no normal.
+  // The face is squeezed flat, but its normal is not reversed.
   Points squeezed = truth_;
   const auto& t = mesh_.triangles[100];
   squeezed[t[0]] = 0.49 * squeezed[t[1]] + 0.49 * squeezed[t[2]] + 0.02 * squeezed[t[0]];
@@ -145,7 +147,7 @@ TEST_F(Unfold, LeavesNoFoldAndComesNearTheTruth) {
       before += (folded_[v] - truth_[v]).norm();
       after += (points[v] - truth_[v]).norm();
     }
-    // In the mean: what is crumpled but not folded stays as it is.
+    // The comparison is in the mean: parts that are crumpled but not folded do not change.
     EXPECT_LT(after, 0.5 * before) << with_target;
   }
 }
@@ -184,7 +186,7 @@ TEST_F(Unfold, GivesTheSameBitsAgain) {
 }
 
 TEST_F(Unfold, UnfoldsAPieceThatIsAllFolded) {
-  // Two triangles, one folded onto the other: nothing around holds them.
+  // Two triangles, one folded onto the other, without anything around that holds them.
   const Surface pair(MakeGridMesh(2, 2));
   const WeldedMesh mesh = BuildWeldedMesh(pair.cloud(), pair.topology());
   const Points rest = pair.cloud().points;

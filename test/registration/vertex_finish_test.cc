@@ -15,7 +15,8 @@
 namespace ceres_ed {
 namespace {
 
-// A body of diagonal near 1, and a bump of a few edges on it that no graph of few nodes could make.
+// Returns a body with a diagonal near 1 and a bump of a few edges, which no graph of few nodes can
+// represent.
 PointCloud MakeBody(int vertices) {
   return MakeSyntheticShape(SyntheticShape::kKidney, vertices, 1.0);
 }
@@ -47,7 +48,7 @@ FinishInput InputOf(const Surface& source, const Surface& target) {
 
 TEST(FinishVertices, BringsASurfaceOntoItsTarget) {
   const Surface source(MakeBody(3000));
-  // Meshed apart, so that no vertex of one is a vertex of the other.
+  // The surfaces are meshed separately, so that no vertex of one is a vertex of the other.
   const Surface target(WithWaves(MakeBody(4000), 0.005));
   const FinishResult result = FinishVertices(InputOf(source, target), {});
   EXPECT_TRUE(result.moved);
@@ -65,8 +66,8 @@ TEST(FinishVertices, BringsBarePointsOntoTheirTarget) {
   EXPECT_LT(MeanDistance(result.points, target), 0.2 * MeanDistance(source.cloud().points, target));
 }
 
-// Facets of a coarse mesh lie within the surface that its vertices are on: pulled to it, they would
-// push the vertices beyond.
+// The facets of a coarse mesh lie within the surface of its vertices. If vertices were attracted to
+// the facets, they would attract the others beyond the surface.
 TEST(FinishVertices, PutsTheVerticesOfACoarseMeshOnTheSurface) {
   PointCloud small = MakeSphereMesh(2);
   for (Eigen::Vector3d& point : small.points) point *= 0.97;
@@ -78,8 +79,8 @@ TEST(FinishVertices, PutsTheVerticesOfACoarseMeshOnTheSurface) {
     for (const Eigen::Vector3d& point : result.points) {
       mean += point.norm() / static_cast<double>(result.points.size());
     }
-    // The middle of a facet of the source is 1.3 % below the sphere, one of the coarsest target 5
-    // %.
+    // The middle of a facet of the source is 1.3 % below the sphere, and that of the coarsest
+    // target 5 %.
     EXPECT_NEAR(mean, 1.0, 0.003) << levels;
   }
 }
@@ -106,7 +107,7 @@ TEST(FinishNoise, IsNothingBetweenCleanSurfaces) {
 TEST(FinishVertices, LeavesWhatIsFarFromTheTargetAlone) {
   const Surface source(MakeBody(6000));
   PointCloud body = WithWaves(MakeBody(4000), 0.005);
-  // The upper half alone.
+  // Only the upper half.
   std::vector<std::array<int, 3>> triangles;
   for (const auto& t : body.triangles) {
     const auto is_up = [&](int corner) { return body.points[corner].z() > 0.0; };
@@ -115,7 +116,7 @@ TEST(FinishVertices, LeavesWhatIsFarFromTheTargetAlone) {
   body.triangles = triangles;
   const Surface target(body);
   FinishInput input = InputOf(source, target);
-  // Within the half, nothing is farther.
+  // Within the half, no point is farther away.
   input.matching.max_distance = 0.03;
   const FinishResult result = FinishVertices(input, {});
   double moved = 0.0;
@@ -172,7 +173,7 @@ TEST(FinishVertices, IsTheSameForAMeshWhoseTrianglesShareNoVertices) {
   const FinishResult expected = FinishVertices(InputOf(source, target), {});
   const FinishResult result = FinishVertices(InputOf(loose_source, target), {});
   for (std::size_t p = 0; p < result.points.size(); ++p) {
-    // The order of the vertices and so of all sums differs.
+    // The order of the vertices, and therefore of all sums, is different.
     EXPECT_LT((result.points[p] - expected.points[origin[p]]).norm(), 1e-9) << p;
   }
 }

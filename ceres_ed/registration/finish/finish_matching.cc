@@ -10,12 +10,13 @@
 namespace ceres_ed {
 namespace {
 
-// More target points than this multiple of the vertices say nothing new.
+// Target samples per vertex; more of them would add no information.
 constexpr int kSamplesPerVertex = 2;
 
-// How far the surface of which a triangle is a facet lies from the point `blend` of it: with the
-// normals of its corners, to second order (half of what Phong tessellation adds; Boubekeur and
-// Alexa 2008). Up to the sign of each normal.
+// Returns the offset, at the point `blend` of a triangle, from the triangle to the curved surface
+// that it approximates. It is computed from the normals of the corners to second order (half of the
+// offset of Phong tessellation; Boubekeur and Alexa 2008), and does not depend on the sign of each
+// normal.
 Eigen::Vector3d Sagitta(const std::array<int, 3>& triangle,
                         const Eigen::Vector3d& blend,
                         const std::vector<Eigen::Vector3d>& points,

@@ -1,4 +1,5 @@
-// What pulls the vertices of a finish: pairs with the target, both ways.
+// Finds the pairs that attract the vertices in the finish: pairs with the target, in both
+// directions.
 #ifndef CERES_ED_REGISTRATION_FINISH_FINISH_MATCHING_H_
 #define CERES_ED_REGISTRATION_FINISH_FINISH_MATCHING_H_
 
@@ -15,36 +16,37 @@
 namespace ceres_ed {
 
 // A point of the moving surface (a blend of up to three vertices), and the plane that it should
-// reach: its distance is along `normal` for the most part.
+// reach. The distance is mostly along `normal`.
 struct FinishPair {
   std::array<int, 3> vertices = {-1, -1, -1};
   Eigen::Vector3d blend = Eigen::Vector3d::UnitX();
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  // Half way between the normals of the two surfaces.
+  // The mean direction of the normals of the two surfaces.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double weight = 0.0;
 };
 
-// Finds the pairs of a finish, round after round.
+// Finds the pairs of a finish, in each of its rounds.
 class FinishMatcher {
  public:
-  // All must outlive this. `fallback_normals`, one a vertex, serve where there are no triangles.
+  // All arguments must outlive this object. `fallback_normals`, one per vertex, are used if there
+  // are no triangles.
   FinishMatcher(const Surface& source,
                 const WeldedMesh& mesh,
                 const std::vector<Eigen::Vector3d>& fallback_normals,
                 const Surface& target,
                 const MatchingOptions& options);
 
-  // The pairs of the vertices at `points`: of each vertex with the closest point of the target, and
-  // of each target sample with the closest point of the moving surface. Believed as in
-  // MatchBothWays. Where triangles span a curved surface, targets are moved by how far it lies from
-  // them, as the normals of their corners tell. Weights are Welsch's with `loss_width` robust
-  // standard deviations of the distances across the surface. They sum to at most the number of
-  // vertices, each way half.
-  // `points` is the same vector every time.
+  // Returns the pairs of the vertices at `points`: each vertex with the closest point of the
+  // target, and each target sample with the closest point of the moving surface. Pairs are accepted
+  // by the rules of MatchBothWays(). Triangles of a curved surface lie within it; the targets are
+  // moved by the distance between surface and triangle, which follows from the normals of the
+  // corners. The weights are those of a Welsch loss whose width is `loss_width` robust standard
+  // deviations of the distances across the surface. They sum to at most the number of vertices,
+  // half of it for each direction. `points` must be the same vector at each call.
   std::vector<FinishPair> Match(const std::vector<Eigen::Vector3d>& points, double loss_width);
 
-  // 1.4826 times the median distance across the surface of what was paired last.
+  // Returns 1.4826 times the median distance across the surface over the last pairs.
   double robust_plane_distance() const { return robust_plane_distance_; }
 
  private:
@@ -59,7 +61,7 @@ class FinishMatcher {
   void MatchBackward(const std::vector<Eigen::Vector3d>& points,
                      const std::vector<Eigen::Vector3d>& normals,
                      std::vector<Candidate>* candidates);
-  // Half way between two normals; zero where they disagree.
+  // Returns the mean direction of two normals, or zero if they disagree.
   Eigen::Vector3d Between(const Eigen::Vector3d& moving, const Eigen::Vector3d& still) const;
 
   const Surface& source_;
@@ -68,8 +70,8 @@ class FinishMatcher {
   const Surface& target_;
   const MatchingOptions& options_;
   std::vector<int> target_samples_;
-  // What was closest in the round before: on the target to each vertex, and of the vertices to each
-  // target sample; -1 where nothing was.
+  // The closest places of the previous round: on the target for each vertex, and among the vertices
+  // for each target sample; -1 if there was none.
   std::vector<int> on_target_;
   std::vector<int> nearest_vertex_;
   std::unique_ptr<KdTree> tree_;

@@ -12,10 +12,10 @@ namespace ceres_ed {
 namespace {
 
 constexpr double kMinCosine = 0.2;
-// Against the normal that the surface should have.
+// The smallest cosine between a triangle's normal and the normal that the surface should have.
 constexpr double kFoldedCosine = 0.2;
 constexpr double kMaxAreaRatio = 10.0;
-// How often a displacement is smoothed, then halved, before it is taken back as a whole.
+// How often a displacement is smoothed, and then halved, before it is set to zero.
 constexpr int kSmoothings = 8;
 constexpr int kHalvings = 6;
 
@@ -26,7 +26,7 @@ bool IsBad(const Eigen::Vector3d& before, const Eigen::Vector3d& after) {
          area_after * kMaxAreaRatio < area_before || area_before * kMaxAreaRatio < area_after;
 }
 
-// Half way from the displacement of `v` to the mean of its neighbours'.
+// Returns the mean of the displacement of `v` and the mean displacement of its neighbours.
 Eigen::Vector3d Smoothed(const WeldedMesh& mesh,
                          const std::vector<Eigen::Vector3d>& displacements,
                          int v) {
@@ -35,12 +35,12 @@ Eigen::Vector3d Smoothed(const WeldedMesh& mesh,
   for (int e = mesh.around_offsets[v]; e < mesh.around_offsets[v + 1]; ++e) {
     for (const int corner : mesh.triangles[mesh.around[e]]) sum += displacements[corner];
   }
-  // Each triangle has the vertex itself, too.
+  // Each triangle also contains the vertex itself.
   const Eigen::Vector3d mean = (sum - count * displacements[v]) / (2.0 * count);
   return 0.5 * (displacements[v] + mean);
 }
 
-// Finds the vertices of triangles that turn over or change too much, each once.
+// Finds the vertices of triangles that turn over or change too much; each vertex is returned once.
 class DistortionFinder {
  public:
   DistortionFinder(const WeldedMesh& mesh,
@@ -65,7 +65,7 @@ class DistortionFinder {
       const Eigen::Vector3d after = AreaVector(points, corners);
       const Eigen::Vector3d should =
           normals_[corners[0]] + normals_[corners[1]] + normals_[corners[2]];
-      // What was nearly folded may not turn the last bit.
+      // A triangle that was nearly folded must not turn any further.
       const bool is_folded = after.dot(should) < kFoldedCosine * after.norm() * should.norm() &&
                              after.dot(should) * before.norm() < before.dot(should) * after.norm();
       if (!is_folded && !IsBad(before, after)) continue;
@@ -81,7 +81,7 @@ class DistortionFinder {
  private:
   const WeldedMesh& mesh_;
   const std::vector<Eigen::Vector3d>& normals_;
-  // Zero for triangles that may turn.
+  // The area vectors at the start; zero for triangles that may turn.
   std::vector<Eigen::Vector3d> before_;
   std::vector<char> is_hit_;
 };

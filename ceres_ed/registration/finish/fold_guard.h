@@ -1,4 +1,4 @@
-// Keeps a displacement from turning triangles over.
+// Limits a displacement so that it does not turn triangles over.
 #ifndef CERES_ED_REGISTRATION_FINISH_FOLD_GUARD_H_
 #define CERES_ED_REGISTRATION_FINISH_FOLD_GUARD_H_
 
@@ -10,11 +10,12 @@
 
 namespace ceres_ed {
 
-// Smooths, then shortens the way of the vertices from `start` to `points` around every triangle
-// whose normal turns by more than about 78 degrees (cosine 0.2), or away from `normals` beyond
-// that, or whose area changes by more than a factor of 10, until none is left. `normals`, one a
-// vertex, are what the surface should have; triangles whose normal at `start` points away from them
-// are folded and may turn. Returns how many vertices were held back.
+// Smooths and then shortens the displacement of vertices from `start` to `points` around bad
+// triangles, until there are none. A triangle is bad if its normal turns by more than about 78
+// degrees (cosine 0.2), if its normal turns away from `normals` to beyond this angle, or if its
+// area changes by more than a factor of 10. `normals`, one per vertex, are the normals that the
+// surface should have. Triangles whose normal at `start` points against them are folded and may
+// turn. Returns the number of vertices whose displacement was limited.
 int DampFolds(const WeldedMesh& mesh,
               const std::vector<Eigen::Vector3d>& start,
               const std::vector<Eigen::Vector3d>& normals,

@@ -13,10 +13,12 @@
 namespace ceres_ed {
 namespace {
 
-// Of the area at rest.
+// Shares of the area at rest: below the first a face is squeezed; above the second its surroundings
+// are intact.
 constexpr double kSqueezedShare = 0.05;
 constexpr double kWholeShare = 0.2;
-// Below this the closed form loses too many digits: two singular values nearly cancel.
+// Below this value the closed form loses too many digits, because two singular values nearly
+// cancel.
 constexpr double kMinDenominator = 1e-5;
 constexpr int kMaxNewtonSteps = 30;
 
@@ -38,10 +40,10 @@ Eigen::Matrix3d Cofactors(const Eigen::Matrix3d& B) {
 }  // namespace
 
 // The closed form of Markley, "Attitude determination using vector observations: a fast optimal
-// matrix algorithm" (1993): with s_i the singular values, s_3 with the sign of det B, the maximum
-// is lambda = s_1 + s_2 + s_3, the greatest root of
+// matrix algorithm" (1993). With s_i the singular values, s_3 with the sign of det B, the maximum
+// is lambda = s_1 + s_2 + s_3, which is the largest root of
 //   p(x) = (x^2 - |B|^2)^2 - 8 x det B - 4 |cof B|^2,
-// and p'(lambda) / 8 = (s_1 + s_2) (s_2 + s_3) (s_3 + s_1). A tenth of the time of an SVD.
+// and p'(lambda) / 8 = (s_1 + s_2) (s_2 + s_3) (s_3 + s_1). It takes a tenth of the time of an SVD.
 Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& B) {
   const double norm = B.norm();
   if (!(norm > 0.0)) return Eigen::Matrix3d::Identity();
@@ -49,7 +51,8 @@ Eigen::Matrix3d NearestRotation(const Eigen::Matrix3d& B) {
   const Eigen::Matrix3d cofactors = Cofactors(M);
   const double det = M.col(0).dot(cofactors.col(0));
   const double cofactors_squared = cofactors.squaredNorm();
-  // No root is greater, and with all roots real Newton's steps come down to the greatest.
+  // No root is larger than sqrt(3). Because all roots are real, Newton's method converges to the
+  // largest one from above.
   double lambda = std::sqrt(3.0);
   double zeta = 0.0;
   for (int step = 0; step < kMaxNewtonSteps; ++step) {
@@ -168,7 +171,7 @@ std::vector<int> FoldFinder::FacesAround(const std::vector<int>& vertices) const
 }
 
 std::vector<std::vector<int>> FoldFinder::Groups(const std::vector<int>& faces, int rings) const {
-  // Components of the grown set, numbered by lowest vertex.
+  // Computes the connected components of the grown set, numbered by their lowest vertex.
   const std::vector<int> grown = Grow(faces, rings);
   std::vector<int> group(rest_.size(), -1);
   for (const int v : grown) group[v] = -2;

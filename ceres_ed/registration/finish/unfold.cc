@@ -13,25 +13,27 @@
 namespace ceres_ed {
 namespace {
 
-// Rings around a fold that are set free, one try after the other.
+// The numbers of rings around a fold that are tried, one after the other.
 constexpr int kRings[] = {1, 2, 3, 4, 5};
-// Of a vertex to the target, against its edges. Without the target folds open more easily.
+// The weights of the attraction of a vertex to the target, relative to its edges. Without the
+// target, folds open more easily.
 constexpr double kPulls[] = {0.5, 0.1, 0.0};
-// Of a patch that is pulled: a larger one isn't worth its time.
+// The largest patch with attraction; larger ones are not worth their time.
 constexpr int kMaxPulledRings = 4;
-// In edges: what was farther from the target isn't pulled.
+// Vertices that were farther from the target than this are not attracted; in edges.
 constexpr double kMaxDistance = 1.0;
-// Of the normal that the vertex should have and the target's.
+// The smallest cosine between the normal that the vertex should have and the target's normal.
 constexpr double kMinCosine = 0.3;
 constexpr int kIterations = 10;
-// Folds that are left are worked on again, from where they are then.
+// The number of rounds: remaining folds are treated again from their new positions.
 constexpr int kRounds = 3;
-// Of a vertex to where it is, against its edges: settles the place of a patch that is a component.
+// The weight that holds a vertex at its present position, relative to its edges. It determines the
+// position of a patch that is a whole component.
 constexpr double kHold = 1e-6;
 
 using Points = std::vector<Eigen::Vector3d>;
 
-// One unfolding: what its patches share.
+// One unfolding: the data that its patches share.
 class Unfolder {
  public:
   Unfolder(const UnfoldInput& input, Points* points)
@@ -50,42 +52,44 @@ class Unfolder {
 
  private:
   struct Best {
-    // How many more faces are folded then: <= 0.
+    // The change of the number of folded faces, <= 0.
     int change = 0;
     std::vector<int> vertices;
     Points points;
   };
-  // Relaxes the patch, keeps what is best and puts it back. Returns how many folds the last try
-  // left.
+  // Relaxes the patch, stores the best result and restores the patch. Returns the number of folds
+  // after the last attempt.
   int TryPatch(double pull, Best* best);
-  // How many more faces are folded now than before: <= 0.
+  // Unfolds one group. Returns the change of the number of folded faces, <= 0.
   int UnfoldGroup(const std::vector<int>& faces);
 
-  // A patch: free_ and what a solve needs.
+  // The functions below treat one patch: its vertices and the data of a solve.
   void SetPatch(const std::vector<int>& vertices);
   void FindPulled(const Points& start);
   void Factorize(double pull);
   void SpreadRotations();
   void FindRotations();
-  // What pulls vertex `i` of the patch, times its weight.
+  // Returns the point that attracts vertex `i` of the patch.
   Eigen::Vector3d Pull(int i);
   void SolvePoints(const Points& start, double pull);
   void Relax(const Points& start, double pull, bool spread);
 
   const WeldedMesh& mesh_;
   const Points& rest_;
-  // Null: nothing pulls.
+  // Null if nothing attracts the vertices.
   const Surface* target_;
   FoldFinder finder_;
   Points rest_normals_;
   double max_distance_ = 0.0;
   std::vector<char> is_held_;
-  // Of each vertex in the patch, free ones first, then their neighbours; -1 elsewhere.
+  // The place of each vertex in the patch, where free vertices come first, then their neighbours;
+  // -1 for others.
   std::vector<int> index_;
   std::vector<int> patch_;
   int num_free_ = 0;
   std::vector<char> is_pulled_;
-  // Where a vertex was closest to the target (SurfaceHit::place); -1 where that isn't known.
+  // The last place on the target that was closest to a vertex (SurfaceHit::place); -1 if it is not
+  // known.
   std::vector<int> on_target_;
   std::vector<Eigen::Matrix3d> rotations_;
   std::unique_ptr<SparseCholesky> factor_;
@@ -190,6 +194,7 @@ void Unfolder::SolvePoints(const Points& start, double pull) {
   for (int i = 0; i < num_free_; ++i) points_[patch_[i]] = solved.row(i);
 }
 
+// Alternates between the rotations and the positions (Sorkine and Alexa 2007).
 void Unfolder::Relax(const Points& start, double pull, bool spread) {
   for (int i = 0; i < num_free_; ++i) points_[patch_[i]] = start[i];
   for (int iteration = 0; iteration < kIterations; ++iteration) {
@@ -200,7 +205,7 @@ void Unfolder::Relax(const Points& start, double pull, bool spread) {
 }
 
 int Unfolder::TryPatch(double pull, Best* best) {
-  // What moves changes the rotations of its neighbours.
+  // A vertex that moves changes the rotations of its neighbours.
   const std::vector<int> around = finder_.FacesAround(patch_);
   const int before = static_cast<int>(finder_.Find(around, points_).size());
   Points start;

@@ -1,4 +1,4 @@
-// Lays faces flat again that a deformation has folded over.
+// Lays faces flat that a deformation has folded over.
 #ifndef CERES_ED_REGISTRATION_FINISH_UNFOLD_H_
 #define CERES_ED_REGISTRATION_FINISH_UNFOLD_H_
 
@@ -11,32 +11,35 @@
 
 namespace ceres_ed {
 
-// What is unfolded; all in one frame and unit. The pointers must outlive the call.
+// The input of an unfolding, all in one frame and unit. The pointers must outlive the call.
 struct UnfoldInput {
   const WeldedMesh* mesh = nullptr;
-  // One point a vertex, as those that are unfolded.
+  // The shape at rest, with one point per vertex like the points to unfold.
   const std::vector<Eigen::Vector3d>* rest = nullptr;
-  // Vertices that don't move.
+  // The vertices that do not move.
   std::vector<int> held;
-  // What the points have been fitted to; may be null.
+  // The surface to which the points have been fitted; may be null.
   const Surface* target = nullptr;
 };
 
-// Counts of folded faces (FoldFinder says which are).
+// The number of folded faces before and after (by the rules of FoldFinder).
 struct UnfoldResult {
   int before = 0;
   int after = 0;
 };
 
-// Moves vertices of `points` around folded faces until none is left, or as few as can be. Around
-// each fold the vertices within some rings are set free and relaxed as rigidly as possible (Sorkine
-// and Alexa 2007, uniform weights) with all else in its place: from where they are, then with the
-// rotations of the patch's rim spread over it. Vertices that are near the target are drawn to its
-// closest point; where a fold stays, less, and at last not at all. The first patch that leaves no
-// fold is taken, the smaller before the larger; else the one that leaves fewest, and none where
-// none leaves fewer than there were.
+// Moves vertices of `points` around folded faces until none is folded, or as few as possible.
 //
-// Nothing else moves, not by a bit. Bare points have no faces to fold. Deterministic; one thread.
+// Around each fold the vertices within some rings are relaxed as rigidly as possible (Sorkine and
+// Alexa 2007, uniform weights), while all others keep their positions. The relaxation starts from
+// the present positions, and then also with the rotations of the patch's rim interpolated over the
+// patch. Vertices near the target are attracted to its closest point; if a fold remains, the
+// attraction is reduced and finally removed. Smaller patches are tried before larger ones. The
+// first patch without a fold is used, or else the one with the fewest folds, provided that it has
+// fewer than before.
+//
+// No other vertex moves, not by a single bit. Bare points have no faces, so nothing happens. The
+// result is deterministic and uses one thread.
 UnfoldResult UnfoldFaces(const UnfoldInput& input, std::vector<Eigen::Vector3d>* points);
 
 }  // namespace ceres_ed

@@ -19,20 +19,22 @@
 namespace ceres_ed {
 namespace {
 
-// Of the smoothing, per ratio of noise and signal.
+// The smoothing per ratio of noise to signal.
 constexpr double kSmoothingPerNoise = 3.0;
-// Edges of an inner vertex of a regular mesh: brings the smoothing to edges.
+// The number of edges of an inner vertex of a regular mesh, which converts the smoothing to edges.
 constexpr double kUsualDegree = 6.0;
-// Against at most about 1 of all that is matched with a vertex.
+// Weights of constraints. All pairs of one vertex together have a weight of about 1 at most.
 constexpr double kLandmarkWeight = 1e3;
 constexpr double kFixedWeight = 1e6;
 
-// In edges of the source: more than this is noise of the source, too, and no finer shape.
+// Roughness, in edges of the source, up to which it counts as shape; more than this is noise of the
+// source.
 constexpr double kShapeRoughness = 0.06;
-// Of the variance that is taken for shape: a part of a shape may be rougher than the whole.
+// A factor on the variance of the shape's roughness, because a part of a shape may be rougher than
+// the whole.
 constexpr double kRoughnessMargin = 1.5;
 
-// One finish: what its rounds share.
+// One finish: the data that its rounds share.
 class Finisher {
  public:
   Finisher(const FinishInput& input, const FinishOptions& options)
@@ -48,12 +50,12 @@ class Finisher {
 
  private:
   std::vector<Eigen::Vector3d> AtVertices(const std::vector<Eigen::Vector3d>& values) const;
-  // What the noise asks for.
+  // Returns the smoothing that the noise requires.
   double Smoothing(const FinishMatcher& matcher) const;
   void PrepareSmoothness();
-  // Puts the weights of `pairs` into the matrix and factorises it.
+  // Adds the weights of `pairs` to the matrix and factorises it.
   void Factorize(const std::vector<FinishPair>& pairs);
-  // Half the gradient of the objective.
+  // Returns half the gradient of the objective.
   Eigen::MatrixXd Gradient(const std::vector<FinishPair>& pairs) const;
   void Step(const std::vector<FinishPair>& pairs);
   void Conclude(const std::vector<FinishPair>& pairs);
@@ -65,7 +67,7 @@ class Finisher {
   const std::vector<Eigen::Vector3d> normals_;
   std::vector<Eigen::Vector3d> points_;
   Eigen::MatrixXd displacements_;
-  // lambda B, and what is factorised.
+  // lambda B, and the matrix that is factorised.
   SparseCholesky::Matrix smoothness_;
   SparseCholesky::Matrix matrix_;
   std::unique_ptr<SparseCholesky> factor_;
@@ -102,7 +104,7 @@ void Finisher::PrepareSmoothness() {
 
 void Finisher::Factorize(const std::vector<FinishPair>& pairs) {
   Eigen::VectorXd weights = Eigen::VectorXd::Constant(mesh_.num_vertices(), epsilon_);
-  // |sum_i b_i x_i|^2 <= sum_i b_i |x_i|^2 for a blend b.
+  // For a blend b, |sum_i b_i x_i|^2 <= sum_i b_i |x_i|^2; the diagonal matrix therefore majorises.
   for (const FinishPair& pair : pairs) {
     for (int k = 0; k < 3; ++k) weights[pair.vertices[k]] += pair.weight * pair.blend[k];
   }
@@ -112,7 +114,7 @@ void Finisher::Factorize(const std::vector<FinishPair>& pairs) {
   for (const Correspondence& fixed : input_.fixed) {
     weights[mesh_.vertex_of_point[fixed.point]] += kFixedWeight;
   }
-  // The diagonal is the first entry of its column.
+  // The diagonal is the first entry of each column.
   for (int v = 0; v < mesh_.num_vertices(); ++v) {
     const int diagonal = matrix_.outerIndexPtr()[v];
     matrix_.valuePtr()[diagonal] = smoothness_.valuePtr()[diagonal] + weights[v];

@@ -13,51 +13,53 @@
 
 namespace ceres_ed {
 
-// The noise that a finish should reckon with, in the unit of the surfaces: that of the target
-// beyond what roughness it shares with a source that is smooth but for its shape.
+// Returns the noise for which a finish should allow, in the unit of the surfaces: the noise of the
+// target beyond the roughness that it shares with the source.
 double FinishNoise(const Surface& source, const Surface& target);
 
-// What is finished; all in one frame and unit. The pointers must outlive the call.
+// The input of a finish, all in one frame and unit. The pointers must outlive the call.
 struct FinishInput {
-  // At rest: for its triangles and borders alone.
+  // The source at rest; only its triangles and borders are used.
   const Surface* source = nullptr;
-  // The source's points and normals as they are now.
+  // The source's present points and normals.
   const std::vector<Eigen::Vector3d>* points = nullptr;
   const std::vector<Eigen::Vector3d>* normals = nullptr;
   const Surface* target = nullptr;
-  // Standard deviation of the target's noise across its surface, >= 0.
+  // The standard deviation of the target's noise across its surface, >= 0.
   double noise = 0.0;
-  // Points that end near their places, and points that aren't moved at all.
+  // Points that end near given positions, and points that do not move at all.
   std::vector<Correspondence> landmarks;
   std::vector<Correspondence> fixed;
   MatchingOptions matching;
 };
 
+// The result of a finish.
 struct FinishResult {
-  // One a point of the source; points at the same position move alike.
+  // One point for each point of the source. Points at the same position move by the same
+  // displacement.
   std::vector<Eigen::Vector3d> points;
-  // False where there was nothing to gain against the noise: `points` are those of the input.
+  // False if the noise is too large for a finish; `points` are then those of the input.
   bool moved = false;
-  // What `smoothing` came to.
+  // The smoothing that was used.
   double smoothing = 0.0;
-  // Pairs of the last round, and their root mean square distances at the end.
+  // The number of pairs of the last round, and their root mean square distances at the end.
   int pairs = 0;
   double rms_plane = 0.0;
   double rms_point = 0.0;
 };
 
-// Returns the source's points displaced onto the target. Minimises over the displacements d
+// Returns the source's points displaced onto the target. It minimises, over the displacements d,
 //   sum_k w_k [(1 - s) (n_k . r_k)^2 + s |r_k|^2] + lambda sum_v deg_v |d_v - mean of neighbours|^2
 //     + eps |d|^2
-// with pairs k both ways (FinishMatcher), r_k the vector from a pair's target to the blend of its
-// vertices, lambda and eps from the lengths of `options`. Each step solves with a matrix that
-// majorises the Hessian and is the same for x, y and z: diag(sum_k w_k blend_k) + lambda B + eps;
-// it is factorised once a round. In the end displacements are damped around every triangle that
-// they would turn over, or squeeze or stretch beyond reason.
+// with pairs k in both directions (FinishMatcher), r_k the vector from the target of a pair to the
+// blend of its vertices, and lambda and eps from the lengths in `options`. Each step solves a
+// system with a matrix that majorises the Hessian and is the same for x, y and z: diag(sum_k w_k
+// blend_k) + lambda B + eps. It is factorised once per round. At the end displacements are damped
+// around every triangle that they would turn over, or squeeze or stretch too much.
 //
-// With noise sigma, and s the robust deviation of the distances beyond it, the smoothing is at
-// least 3 sigma / s: the average then brings the noise to a twelfth of what there is to gain.
-// Deterministic; one thread.
+// With noise sigma, and s the robust deviation of the distances beyond the noise, the smoothing is
+// at least 3 sigma / s: the averaging then reduces the noise to a twelfth of the possible gain. The
+// result is deterministic and uses one thread.
 FinishResult FinishVertices(const FinishInput& input, const FinishOptions& options);
 
 }  // namespace ceres_ed

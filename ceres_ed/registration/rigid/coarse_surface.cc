@@ -16,9 +16,9 @@
 namespace ceres_ed {
 namespace {
 
-// A side of a sheet that holds less than this share of a cube's heaviest one is noise.
+// A side with less than this share of the weight of the heaviest side of a cube is noise.
 constexpr double kLeastShare = 0.25;
-// Normals are summed this many spacings around.
+// The radius within which normals are summed, in units of the spacing.
 constexpr double kNormalReach = 2.0;
 
 struct Patch {
@@ -28,8 +28,8 @@ struct Patch {
   bool on_border = false;
 };
 
-// The area vector that each point stands for, spread along the edges `passes` times; of bare points
-// the normal. Along edges, so that noise doesn't mix the two sides of a thin body.
+// Returns the area vector of each point, averaged along the edges `passes` times; for bare points
+// its normal. Averaging along edges does not mix the two sides of a thin body.
 std::vector<Eigen::Vector3d> AreaVectors(const Surface& surface, int passes) {
   const PointCloud& cloud = surface.cloud();
   const SurfaceTopology& topology = surface.topology();
@@ -52,7 +52,7 @@ std::vector<Eigen::Vector3d> AreaVectors(const Surface& surface, int passes) {
   return areas;
 }
 
-// Points by the cube that they are in, in the order of the walk within a cube.
+// Returns the points sorted by their cube; within a cube they keep the order of the samples.
 std::vector<std::pair<std::array<std::int64_t, 3>, int>> SortByCube(const Surface& surface,
                                                                     double spacing) {
   const std::vector<Eigen::Vector3d>& points = surface.cloud().points;

@@ -1,4 +1,4 @@
-// A surface thinned out and smoothed: what a rigid search looks at.
+// A thinned out and smoothed surface, on which the rigid search works.
 #ifndef CERES_ED_REGISTRATION_RIGID_COARSE_SURFACE_H_
 #define CERES_ED_REGISTRATION_RIGID_COARSE_SURFACE_H_
 
@@ -11,22 +11,24 @@
 
 namespace ceres_ed {
 
-// One point for each cube of `spacing` that the surface meets (two where it has two sides there):
-// the mean of its points, with the normal of the summed area vectors over that cube and those near
-// it. Vertex normals of a noisy mesh are noise; area vectors of a patch depend on its border alone,
-// so that noise cancels. Neither copied nor moved: the tree refers to the points.
+// One point for each cube of edge `spacing` that the surface meets (two if the surface has two
+// sides there). The point is the mean of the surface's points in the cube; its normal is that of
+// the sum of the area vectors in this cube and in those near it. On a noisy mesh vertex normals
+// contain mostly noise, whereas the area vector of a patch depends only on its border, so that
+// noise cancels. Objects cannot be copied or moved, because the tree refers to the points.
 class CoarseSurface {
  public:
-  // `spacing` > 0 in the unit of the surface. Before they tell sides apart, the area vectors of a
-  // mesh's points are averaged `passes` times with those of their neighbours along edges.
+  // `spacing` > 0 is in the unit of the surface. Before they are used to distinguish sides, the
+  // area vectors of a mesh's points are averaged `passes` times with those of their neighbours
+  // along edges.
   CoarseSurface(const Surface& surface, double spacing, int passes);
   CoarseSurface(const CoarseSurface&) = delete;
   CoarseSurface& operator=(const CoarseSurface&) = delete;
 
   const std::vector<Eigen::Vector3d>& points() const { return points_; }
-  // Of unit length, or zero where none is known.
+  // Returns the normals, of unit length, or zero where none is known.
   const std::vector<Eigen::Vector3d>& normals() const { return normals_; }
-  // 1 where a point of the surface's border went in.
+  // Returns 1 for each point that contains a point of the surface's border, else 0.
   const std::vector<char>& is_border() const { return is_border_; }
   const KdTree& tree() const { return tree_; }
   int size() const { return static_cast<int>(points_.size()); }
@@ -38,8 +40,9 @@ class CoarseSurface {
   KdTree tree_;
 };
 
-// The median angle in radians between the normals of points that share an edge: small on a mesh
-// that resolves its surface, large where noise is a good part of an edge. 0 for bare points.
+// Returns the median angle in radians between the normals of points that share an edge. It is small
+// on a mesh that resolves its surface, and large if the noise is a considerable part of an edge. It
+// is 0 for bare points.
 double MedianNormalTurn(const Surface& surface);
 
 }  // namespace ceres_ed

@@ -28,7 +28,7 @@ NearestGrid::NearestGrid(const std::vector<Eigen::Vector3d>& points, double cell
   cells_.assign(num_cells, -1);
   std::vector<float> best(num_cells, std::numeric_limits<float>::infinity());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // In cells, where cell k has its centre at k + 0.5.
+    // In units of cells, where the centre of cell k is at k + 0.5.
     const Eigen::Vector3d at = (points[i] - corner_) * per_cell_ - Eigen::Vector3d::Constant(0.5);
     const double radius = reach * per_cell_;
     const Eigen::Vector3i low = (at.array() - radius).ceil().max(0.0).cast<int>();

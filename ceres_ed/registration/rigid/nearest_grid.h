@@ -1,4 +1,4 @@
-// The roughly nearest point of a set in constant time.
+// Finds an approximately nearest point of a set in constant time.
 #ifndef CERES_ED_REGISTRATION_RIGID_NEAREST_GRID_H_
 #define CERES_ED_REGISTRATION_RIGID_NEAREST_GRID_H_
 
@@ -9,15 +9,15 @@
 
 namespace ceres_ed {
 
-// A grid of cubes around points, each with the point nearest to its centre.
+// A grid of cubes around points. Each cube stores the point that is nearest to its centre.
 class NearestGrid {
  public:
-  // Cubes of edge `cell` > 0, larger where there would be too many of them; those with no point
-  // within `reach` >= 0 of their centre are empty.
+  // `cell` > 0 is the edge of the cubes; it is larger if there would be too many cubes. Cubes that
+  // have no point within `reach` >= 0 of their centre are empty.
   NearestGrid(const std::vector<Eigen::Vector3d>& points, double cell, double reach);
 
-  // The index of the point nearest to the centre of the cube that holds `query`; -1 where the cube
-  // is empty and outside of the grid.
+  // Returns the index of the point that is nearest to the centre of the cube that contains `query`;
+  // -1 if the cube is empty or if `query` is outside of the grid.
   int Nearest(const Eigen::Vector3d& query) const {
     const Eigen::Vector3d at = (query - corner_) * per_cell_;
     if (!(at.array() >= 0.0).all() || !(at.array() < size_.cast<double>().array()).all()) return -1;

@@ -15,29 +15,31 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kMinPairs = 6;
-// Weight of point-to-point beside point-to-plane.
+// The weight of point-to-point distances relative to point-to-plane distances.
 constexpr double kPointShare = 0.1;
-// A direction in which the mean squared normal displacement of a unit motion is below this isn't
-// determined by point-to-plane distances, unless a step along it explains this share of them.
+// A direction is not determined by the point-to-plane distances if a unit motion along it has a
+// mean squared normal displacement below kLeastCurvature, unless a step along it explains the share
+// kLeastExplained of the distances.
 constexpr double kLeastCurvature = 0.05;
 constexpr double kLeastExplained = 0.1;
-// Distances below this fraction of the score's width are rounding.
+// Distances below this fraction of the score's width are rounding errors.
 constexpr double kNegligible = 1e-4;
 
-// Angle between normals at which a point counts half as missed.
+// The angle between normals at which a point counts half as missed.
 constexpr double kAngleWidth = 30.0 * M_PI / 180.0;
-// Share of the surface that is explained worse in the total.
+// The weight, in the total, of the surface that is explained worse.
 constexpr double kWorseShare = 0.2;
 
 }  // namespace
 
-// A pair in the target frame: where the source point is, and the plane that it should be on.
+// A pair in the target frame: the position of the source point, and the plane on which it should
+// lie.
 struct RigidAligner::PlanePair {
   Eigen::Vector3d moved;
   Eigen::Vector3d target;
   Eigen::Vector3d normal;
   double squared_distance = 0.0;
-  // Between the normals.
+  // The cosine of the angle between the normals.
   double cosine = -1.0;
   bool agrees = false;
   bool on_border = false;
@@ -46,14 +48,14 @@ struct RigidAligner::PlanePair {
   bool IsUsable() const { return found && agrees && !on_border; }
 };
 
-// The normal equations of a step; the right side apart for the two kinds of distance.
+// The normal equations of a step. The right sides of the two kinds of distance are kept separately.
 struct RigidAligner::StepSums {
   Eigen::Matrix<double, 7, 7> H = Eigen::Matrix<double, 7, 7>::Zero();
   Vector7 plane_b = Vector7::Zero();
   Vector7 point_b = Vector7::Zero();
   double plane_energy = 0.0;
   double weight = 0.0;
-  // Weighted sum of squared levers.
+  // The weighted sum of the squared levers.
   double spread = 0.0;
 };
 
@@ -158,8 +160,8 @@ RigidScore RigidAligner::Score(const Similarity& pose) const {
   return score;
 }
 
-// One Gauss-Newton step of the reweighted sum of point-to-plane and, with a small share,
-// point-to-point distances; false when it can't be taken.
+// Does one Gauss-Newton step for the reweighted sum of point-to-plane and, with a small share,
+// point-to-point distances. Returns false if the step cannot be computed.
 bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   int count = 0;

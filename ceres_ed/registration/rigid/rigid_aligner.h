@@ -1,4 +1,4 @@
-// Robust ICP between two sampled surfaces, and how well a pose explains them.
+// Robust ICP between two sampled surfaces, and a score of how well a pose explains them.
 #ifndef CERES_ED_REGISTRATION_RIGID_RIGID_ALIGNER_H_
 #define CERES_ED_REGISTRATION_RIGID_RIGID_ALIGNER_H_
 
@@ -13,57 +13,61 @@
 
 namespace ceres_ed {
 
-// What the aligner reads of one surface; refers to it.
+// The data of one surface that the aligner reads; it refers to the surface.
 struct RigidSide {
   const std::vector<Eigen::Vector3d>* points;
-  // Unit length, or zero where none is known.
+  // Normals of unit length, or zero where none is known.
   const std::vector<Eigen::Vector3d>* normals;
   const std::vector<char>* is_border;
   const KdTree* tree;
-  // The points that look for a partner.
+  // The points for which partners are searched.
   std::vector<int> samples;
 };
 
-// The side of a surface itself, with about `samples` of its points; `surface` must outlive it.
+// Returns the side of a surface with about `samples` of its points; `surface` must outlive it.
 RigidSide MakeRigidSide(const Surface& surface, int samples);
 RigidSide MakeRigidSide(const CoarseSurface& surface, int samples);
 
+// Options of RigidAligner.
 struct RigidAlignerOptions {
+  // Whether the scale is estimated, too; default false.
   bool with_scale = false;
-  // Both surfaces have normals of known sign.
+  // Whether the sign of the normals of both surfaces is known; default true.
   bool oriented = true;
-  // No pair whose normals differ by more, in (0, 180] degrees.
+  // The largest angle between the normals of a pair, in (0, 180] degrees; default 60.
   double max_angle_deg = 60.0;
-  // Distance at which a point counts half as missed, in the unit of the target, > 0.
+  // The distance at which a point counts half as missed, in the unit of the target, > 0.
   double width = 1.0;
-  // What two samples of one surface are apart: as much of a distance along the surface is no miss,
-  // in the unit of the target, >= 0.
+  // The spacing of the samples of a surface, in the unit of the target, >= 0: a distance along the
+  // surface counts only as far as it exceeds this value.
   double slack = 0.0;
   int num_threads = 1;
 };
 
-// How much of each surface is missed, each in [0, 1].
+// How much of each surface is not explained ("missed"), each in [0, 1].
 struct RigidScore {
   double source_missed = 1.0;
   double target_missed = 1.0;
 
-  // Of the surface that is explained better.
+  // Returns the value of the surface that is explained better.
   double Better() const { return source_missed < target_missed ? source_missed : target_missed; }
-  // Mostly of the surface that is explained better: of a partial target and a whole source most of
-  // the source can't be explained.
+  // Returns a mean in which the surface that is explained better has most of the weight: with a
+  // partial target and a whole source, most of the source cannot be explained.
   double Total() const;
 };
 
+// Aligns two surfaces and rates poses.
 class RigidAligner {
  public:
   RigidAligner(RigidSide source, RigidSide target, const RigidAlignerOptions& options);
 
-  // The mean over the samples of each side of q / (1 + q), q = (distance / width)^2 + (angle
-  // between the normals / 30 degrees)^2; 1 for a pair that is beyond max_angle_deg.
+  // Returns the score of a pose: for each side the mean over its samples of q / (1 + q) with q =
+  // (distance / width)^2 + (angle between the normals / 30 degrees)^2, and 1 for a pair beyond
+  // max_angle_deg.
   RigidScore Score(const Similarity& pose) const;
 
-  // The pose after at most `iterations` steps of point-to-plane ICP in both directions, by
-  // Geman-McClure with the width annealed to the spread of the residuals.
+  // Returns the pose after at most `iterations` steps of point-to-plane ICP in both directions,
+  // with a Geman-McClure loss whose width is reduced with the spread of the residuals.
   Similarity Refine(Similarity pose, int iterations) const;
 
  private:
@@ -71,7 +75,8 @@ class RigidAligner {
   struct StepSums;
   using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-  // `nearest`, one a sample, has what was nearest at a pose before, or -1, and gets what is now.
+  // Returns the pairs at a pose. `nearest` has, for each sample, the nearest point at an earlier
+  // pose or -1, and receives the present one.
   std::vector<PlanePair> Pairs(const Similarity& pose, std::vector<int>* nearest) const;
   bool Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const;
   Vector7 SolveObserved(const StepSums& sums) const;

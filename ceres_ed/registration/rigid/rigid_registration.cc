@@ -14,7 +14,8 @@
 namespace ceres_ed {
 namespace {
 
-// Starts are sifted: all of them roughly, the best of them better, the winner to the end.
+// Starts are selected in stages: all are refined roughly, the best of them better, and the winner
+// completely.
 constexpr int kSearchedStarts = 25;
 constexpr int kSiftSamples = 100;
 constexpr int kSiftIterations = 8;
@@ -23,14 +24,14 @@ constexpr int kCoarseSamples = 400;
 constexpr int kCoarseIterations = 15;
 constexpr int kFineSamples = 700;
 constexpr int kFineIterations = 30;
-// Edge of the cubes of the coarse surfaces: a fraction of the smaller one's diagonal, more where
-// normals turn by more than an angle from point to point (noise), and no less than a fraction of
-// the larger one's diagonal.
+// The edge of the cubes of the coarse surfaces. It is a fraction of the smaller surface's diagonal,
+// larger if normals turn by more than kCalmTurn from point to point (noise), and at least a
+// fraction of the larger surface's diagonal.
 constexpr double kSpacing = 0.025;
 constexpr double kCalmTurn = 25.0 * M_PI / 180.0;
 constexpr double kMaxNoiseFactor = 2.0;
 constexpr double kLeastSpacing = 0.012;
-// Passes of smoothing, times the square of the noise's factor.
+// The number of smoothing passes, which is multiplied by the square of the noise factor.
 constexpr double kSmoothing = 3.0;
 
 struct ScoredPose {
@@ -38,7 +39,7 @@ struct ScoredPose {
   RigidScore score;
 };
 
-// How the surfaces are thinned out; a length in the unit of the target.
+// How the surfaces are thinned out; the spacing is in the unit of the target.
 struct Coarseness {
   double spacing = 1.0;
   int passes = 0;
@@ -53,7 +54,7 @@ Coarseness ChooseCoarseness(const Surface& source, const Surface& target, double
   Coarseness coarseness;
   coarseness.passes = static_cast<int>(std::lround(kSmoothing * noise_factor * noise_factor));
   const double spacing = std::max(kSpacing * noise_factor * smaller, kLeastSpacing * larger);
-  // Any will do where all points are one.
+  // If all points coincide, any spacing is suitable.
   if (spacing > 0.0) coarseness.spacing = spacing;
   return coarseness;
 }
@@ -71,7 +72,7 @@ RigidAlignerOptions AlignerOptions(const Surface& source,
   return aligner;
 }
 
-// The work of AlignRigid up to the last refinement, on coarse surfaces.
+// The search of AlignRigid() on coarse surfaces, before the last refinement.
 class StartFinder {
  public:
   StartFinder(const Surface& source,
@@ -93,7 +94,7 @@ class StartFinder {
     return {MakeRigidSide(source_, samples), MakeRigidSide(target_, samples), aligner_options_};
   }
 
-  // The best pose from anywhere; counts the starts.
+  // Returns the best pose of a global search, and counts the starts.
   ScoredPose Search(const RigidAligner& coarse, int* starts_tried) const;
 
  private:
@@ -161,7 +162,7 @@ RigidResult AlignRigid(const Surface& source,
   const bool stopped = options.should_stop && options.should_stop();
   if (best.score.Better() > options.good_score && !stopped) {
     const ScoredPose found = finder.Search(coarse, &result.starts_tried);
-    // It has to prove itself against the given pose.
+    // The new pose must be clearly better than the given one.
     if (found.score.Total() < options.preference * best.score.Total()) best = found;
   }
   result.target_from_source = fine.Refine(best.pose, kFineIterations);

@@ -1,4 +1,4 @@
-// The rigid part of a fit: where the source stands before anything bends.
+// The rigid part of a fit: the placement of the source before it deforms.
 #ifndef CERES_ED_REGISTRATION_RIGID_RIGID_REGISTRATION_H_
 #define CERES_ED_REGISTRATION_RIGID_RIGID_REGISTRATION_H_
 
@@ -11,25 +11,30 @@
 
 namespace ceres_ed {
 
+// The result of a rigid alignment.
 struct RigidResult {
   Similarity target_from_source;
-  // In [0, 1]: how much is missed, mostly of the surface that is explained better (of a partial
-  // target nearly all can be explained, of the whole source beside it little); 0 is a perfect fit.
-  // RigidScore::Total over the points themselves.
+  // How much is missed, in [0, 1]; 0 is a perfect fit. The surface that is explained better has
+  // most of the weight: nearly all of a partial target can be explained, but little of the whole
+  // source. This is RigidScore::Total() over the points themselves.
   double score = 1.0;
-  // Poses that were refined, the given one included.
+  // The number of poses that were refined, including the given one.
   int starts_tried = 0;
 };
 
-// The pose that explains most of the surface that is explained better. Robust point-to-plane ICP
-// (both directions, Geman-McClure with a width annealed to the spread of the residuals) refines
-// poses on thinned out, smoothed surfaces (coarse_surface.h). The given pose comes first. Where it
-// misses more than good_score, others follow: centroids aligned, with the given orientation and
-// with the principal axes in their four ways, and what the search finds that lays the smaller
-// surface on every part of the larger one (rigid_search.h). All are refined roughly, the best of
-// them better; the winner replaces the given pose if it is better by `preference`. Last, ICP on the
-// points themselves. Turns that leave the smaller surface equally well explained can't be told
-// apart: a smooth part without features is found only up to a slide.
+// Returns the pose that explains most of the surface that is explained better.
+//
+// Robust point-to-plane ICP (both directions, Geman-McClure with a width that is reduced with the
+// spread of the residuals) refines poses on thinned out, smoothed surfaces (coarse_surface.h). The
+// given pose is refined first. If it misses more than good_score, other poses follow: aligned
+// centroids with the given orientation and with the principal axes in their four proper ways, and
+// the results of a search that lays the smaller surface onto every part of the larger one
+// (rigid_search.h). All of them are refined roughly, and the best of them better. The best one
+// replaces the given pose if it is better by the factor `preference`. Finally ICP runs on the
+// points themselves.
+//
+// Rotations that explain the smaller surface equally well cannot be distinguished: a smooth part
+// without features is located only up to sliding.
 RigidResult AlignRigid(const Surface& source,
                        const Surface& target,
                        const Similarity& initial,

@@ -17,24 +17,26 @@ namespace {
 
 constexpr int kTurns = 24;
 constexpr int kSamples = 64;
-// So many samples decide whether the others are looked at.
+// This many samples decide whether the remaining samples are evaluated.
 constexpr int kFirstSamples = 16;
-// Lengths as fractions of the smaller surface's diagonal: between places that are tried; at which a
-// point counts half as missed; of a cell of the grid; beyond which a point is missed.
+// Lengths as fractions of the smaller surface's diagonal: the spacing of the places that are tried;
+// the distance at which a point counts half as missed; the edge of a grid cell; the distance beyond
+// which a point is missed.
 constexpr double kPlaceSpacing = 0.06;
 constexpr double kWidth = 0.05;
 constexpr double kCell = 0.035;
 constexpr double kReach = 0.12;
-// Places are tried farther apart rather than more of them.
+// If there are more places than this, their spacing is increased.
 constexpr int kMaxPlaces = 800;
 constexpr double kAngleWidth = 30.0 * M_PI / 180.0;
-// Poses that take the smaller surface's ends this close together (fraction of its diagonal, root
-// mean square) are one.
+// Two poses are alike if the ends of the smaller surface differ by less than this (a fraction of
+// its diagonal, root mean square).
 constexpr double kAlike = 0.08;
 
 struct Moments {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  // Columns by descending variance, each as long as the deviation along it.
+  // The principal directions as columns, by descending variance; their lengths are the standard
+  // deviations.
   Eigen::Matrix3d deviations;
 };
 
@@ -55,7 +57,8 @@ Moments MomentsOf(const std::vector<Eigen::Vector3d>& points) {
   return moments;
 }
 
-// Points well inside: borders have half a neighbourhood, and may lie where the other surface ends.
+// Returns anchors in the interior. At a border, half of the neighbourhood is missing, and the other
+// surface may end there.
 std::vector<int> Anchors(const CoarseSurface& surface, const Moments& moments) {
   std::vector<int> anchors;
   for (const Eigen::Vector2d& at : {Eigen::Vector2d(0.0, 0.0),
@@ -73,12 +76,12 @@ std::vector<int> Anchors(const CoarseSurface& surface, const Moments& moments) {
   return anchors;
 }
 
-// A rotation that takes the x axis to `normal`.
+// Returns a rotation that maps the x axis to `normal`.
 Eigen::Matrix3d Frame(const Eigen::Vector3d& normal) {
   return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), normal).toRotationMatrix();
 }
 
-// base_from_query, without its scale.
+// A pose base_from_query without its scale.
 struct Hypothesis {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
@@ -90,7 +93,8 @@ struct OrientedPoint {
   Eigen::Vector3d normal;
 };
 
-// The smaller surface, `query`, is laid onto the larger one, `base`; in the unit of the base.
+// Lays the smaller surface (`query`) onto the larger one (`base`). Lengths are in the unit of the
+// base.
 class Searcher {
  public:
   Searcher(const CoarseSurface& query,
@@ -98,14 +102,15 @@ class Searcher {
            const CoarseSurface& base,
            bool oriented);
 
-  // Every place and turn of every anchor, those that miss least first, no two alike.
+  // Returns the best poses over every place and rotation of every anchor, without similar ones.
   std::vector<Hypothesis> Run(int max_count, const std::function<bool()>& should_stop) const;
 
  private:
   void TryPlace(const OrientedPoint& anchor,
                 const OrientedPoint& place,
                 std::vector<Hypothesis>* out) const;
-  // The mean of what each sample misses, or at least 1 where the first samples miss too much.
+  // Returns the mean of the samples' missed shares, or at least 1 if the first samples miss too
+  // much.
   double Missed(const Hypothesis& hypothesis) const;
   std::vector<Hypothesis> Distinct(std::vector<Hypothesis> hypotheses, int max_count) const;
 
@@ -116,7 +121,7 @@ class Searcher {
   std::vector<OrientedPoint> samples_;
   std::vector<OrientedPoint> anchors_;
   std::vector<OrientedPoint> places_;
-  // Far apart on the query, to tell poses from each other.
+  // Points far apart on the query, by which poses are compared.
   std::vector<Eigen::Vector3d> ends_;
 };
 
@@ -172,7 +177,7 @@ double Searcher::Missed(const Hypothesis& hypothesis) const {
       double cosine = base_.normals()[hit].dot(hypothesis.rotation * sample.normal);
       if (!oriented_) cosine = std::abs(cosine);
       if (squared < max_squared && cosine > 0.0) {
-        // angle^2 up to 60 degrees.
+        // Approximates angle^2 for angles up to 60 degrees.
         const double q = squared + 2.0 * (1.0 - cosine) / (kAngleWidth * kAngleWidth);
         share = q / (1.0 + q);
       }
@@ -241,7 +246,7 @@ std::vector<Hypothesis> Searcher::Distinct(std::vector<Hypothesis> hypotheses,
 std::vector<Similarity> SearchRigidly(const CoarseSurface& source,
                                       const CoarseSurface& target,
                                       const RigidSearchOptions& options) {
-  // Both have one point a cube of equal size, so that fewer points are less area.
+  // Both surfaces have one point per cube of equal size, so fewer points mean less area.
   const bool source_is_query = source.size() < target.size();
   const CoarseSurface& query = source_is_query ? source : target;
   const CoarseSurface& base = source_is_query ? target : source;

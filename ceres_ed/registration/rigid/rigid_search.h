@@ -1,4 +1,4 @@
-// Candidates for a rigid alignment from anywhere.
+// Finds candidates for a rigid alignment without an initial pose.
 #ifndef CERES_ED_REGISTRATION_RIGID_RIGID_SEARCH_H_
 #define CERES_ED_REGISTRATION_RIGID_RIGID_SEARCH_H_
 
@@ -10,22 +10,26 @@
 
 namespace ceres_ed {
 
+// Options of SearchRigidly().
 struct RigidSearchOptions {
-  // Of every pose; the search doesn't change it.
+  // The scale of all poses; the search does not change it. Default 1.
   double scale = 1.0;
-  // Both surfaces have normals of known sign; else each anchor is tried both ways.
+  // Whether the sign of the normals of both surfaces is known; otherwise each anchor is tried with
+  // both signs. Default true.
   bool oriented = true;
-  // At most this many poses come back, >= 1.
+  // The largest number of poses to return, >= 1; default 30.
   int max_count = 30;
-  // Asked now and then; true ends the search with what is there.
+  // Called from time to time; if it returns true, the search ends with the poses found so far.
   std::function<bool()> should_stop;
 };
 
-// Poses target_from_source that lay the smaller surface onto the larger one, best first, no two of
-// them alike. Every few points of the larger one are tried as the place of each of a few anchors of
-// the smaller one, normal on normal, in 24 turns about it; a grid around the larger surface tells
-// how much of the smaller one then lies on it with the right normal. No features and no chance:
-// smooth organs have no features to speak of.
+// Returns poses target_from_source that lay the smaller surface onto the larger one, the best
+// first, without poses that are nearly equal.
+//
+// A few anchors of the smaller surface are placed on evenly distributed points of the larger one,
+// with aligned normals and in 24 rotations about the normal. A grid around the larger surface then
+// gives the share of the smaller surface that lies on it with the correct normal. The search uses
+// no features, because smooth organs have few, and no random numbers.
 std::vector<Similarity> SearchRigidly(const CoarseSurface& source,
                                       const CoarseSurface& target,
                                       const RigidSearchOptions& options);

@@ -23,7 +23,7 @@ Eigen::Matrix3d PrincipalAxes(const std::vector<Eigen::Vector3d>& points) {
   return axes;
 }
 
-// The pose that turns about the source's centroid by R and takes it to the target's.
+// Returns the pose that rotates the source by R and maps its centroid to that of the target.
 Similarity CenteredPose(const Eigen::Matrix3d& R,
                         double scale,
                         const Eigen::Vector3d& from,

@@ -1,4 +1,4 @@
-// Where a rigid alignment may start from.
+// Initial poses for a rigid alignment.
 #ifndef CERES_ED_REGISTRATION_RIGID_RIGID_STARTS_H_
 #define CERES_ED_REGISTRATION_RIGID_RIGID_STARTS_H_
 
@@ -10,9 +10,9 @@
 
 namespace ceres_ed {
 
-// Poses to try beside `initial`, all with its scale and with the centroids aligned: first its own
-// orientation, then the principal axes aligned in their four proper ways. Neither set of points is
-// empty.
+// Returns poses to try in addition to `initial`, all with its scale and with aligned centroids:
+// first with the orientation of `initial`, then with the principal axes aligned in their four
+// proper ways. Both sets of points must not be empty.
 std::vector<Similarity> RigidStarts(const std::vector<Eigen::Vector3d>& source,
                                     const std::vector<Eigen::Vector3d>& target,
                                     const Similarity& initial);
