@@ -12,13 +12,13 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// What the depth image's floats leave open at a distance of about 6.
+// The rounding of the depth image's floats at a distance of about 6.
 constexpr double kBound = 6.0 * 10.0 * kFloatRounding;
 
 class AssociatePlane : public ::testing::Test {
  protected:
-  // A point whose foot on the plane is behind pixel (u, v) of the picture, `offset` off it toward
-  // the camera, with a normal turned by `turn_deg` from the plane's.
+  // Adds a point whose foot on the plane is at pixel (u, v), at the distance `offset` from the
+  // plane toward the camera, with a normal that is rotated by `turn_deg` from that of the plane.
   void Add(double u, double v, double offset, double turn_deg = 0.0) {
     const Eigen::Vector3d ray = SmallCamera().BackProject(u, v, 1.0);
     const Eigen::Vector3d foot = plane_(ray) * ray;
@@ -49,11 +49,11 @@ TEST_F(AssociatePlane, MeasuresTheDistanceToThePlaneWithItsSign) {
     EXPECT_EQ(match.visible, static_cast<int>(k));
     EXPECT_NEAR(match.distance, offsets[k], kBound);
     EXPECT_EQ(match.patch, surface_.Find(points_[k].pixel));
-    // cos of the angle between ray and normal.
+    // The cosine of the angle between ray and normal.
     EXPECT_NEAR(match.weight, -plane_.normal.dot(match.patch->point.normalized()), 1e-4);
   }
   EXPECT_THAT(result.seen_through, IsEmpty());
-  // Sorted: 0, 0.001, 0.4, [0.4], 0.99, 0.99.
+  // In order: 0, 0.001, 0.4, [0.4], 0.99, 0.99.
   EXPECT_NEAR(result.deviation, 1.4826 * 0.4, 2.0 * kBound);
 }
 
@@ -62,7 +62,7 @@ TEST_F(AssociatePlane, SeesThroughPointsFarInFrontAlone) {
   Add(60.0, 50.0, 0.98);
   Add(70.0, 50.0, -1.01);
   Add(80.0, 50.0, 3.0);
-  // A point in front is no less seen through for its normal.
+  // A point in front is seen through whatever its normal.
   Add(90.0, 50.0, 2.0, 120.0);
   const AssociationResult result = Run();
   EXPECT_THAT(result.seen_through, ElementsAre(0, 3, 4));

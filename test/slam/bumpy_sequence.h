@@ -1,4 +1,4 @@
-// A small sequence whose every frame is known in closed form.
+// A small sequence in which every frame is known in closed form.
 #ifndef CERES_ED_TEST_SLAM_BUMPY_SEQUENCE_H_
 #define CERES_ED_TEST_SLAM_BUMPY_SEQUENCE_H_
 
@@ -21,22 +21,23 @@ namespace ceres_ed {
 
 inline PinholeCamera BumpyCamera() { return {90.0, 90.0, 47.5, 35.5, 96, 72}; }
 
-// A sheet with bumps about 0.1 m away, before a camera that moves along x without turning.
+// A sheet with bumps, about 0.1 m in front of a camera that moves along x without rotation.
 struct BumpyScene {
-  // Metres a frame.
+  // The motion of the camera in metres per frame.
   double camera_step = 0.0005;
-  // How far the sheet heaves, metres.
+  // The amplitude of the sheet's vertical motion in metres.
   double heave = 0.0;
 
   Eigen::Vector3d CameraPosition(int frame) const { return {camera_step * frame, 0.0, 0.0}; }
 
-  // The sheet's z over a place, world frame: that of the first camera.
+  // Returns the z of the sheet above a place in the world frame, which is the frame of the first
+  // camera.
   double Height(double x, double y, int frame) const {
     return 0.1 + 0.006 * std::sin(90.0 * x) * std::cos(70.0 * y) +
            0.004 * std::sin(130.0 * (x + y)) + heave * std::sin(0.4 * frame);
   }
 
-  // Depth along the optical axis of a ray (x / z, y / z), by bisection.
+  // Returns the depth along the optical axis for a ray (x / z, y / z), computed by bisection.
   double Depth(double u, double v, int frame) const {
     const PinholeCamera camera = BumpyCamera();
     const Eigen::Vector3d ray = camera.BackProject(u, v, 1.0);
@@ -61,7 +62,7 @@ struct BumpyScene {
     return depth;
   }
 
-  // A pattern that is painted on the sheet.
+  // Returns a picture of the pattern that is painted on the sheet.
   ColorImage RenderColor(int frame) const {
     const PinholeCamera camera = BumpyCamera();
     ColorImage color(camera.width, camera.height);

@@ -10,15 +10,15 @@
 namespace ceres_ed {
 namespace {
 
-// Where the camera is, seen from the start that the tests give.
+// Returns the pose of the camera, relative to the start of the tests.
 CameraPose TruePose() { return Motion(0.06, {0.3, 1.0, -0.5}, {0.12, -0.08, 0.1}); }
 
 double AngleBetween(const CameraPose& a, const CameraPose& b) {
   return a.rotation.angularDistance(b.rotation);
 }
 
-// A surface, and map points that lie on its patches under the true pose: what remains is nothing
-// but the search.
+// A surface, and map points that lie on its patches under the true pose, so that only the search
+// can cause an error.
 struct TrackedScene {
   template <typename Scene>
   TrackedScene(const Scene& scene, const CameraPose& truth)
@@ -61,7 +61,7 @@ TEST(TrackCamera, IsNotMovedByOutliers) {
   for (std::size_t k = 0; k < scene.points.size(); ++k) {
     if (k % 10 >= 3) continue;
     ++outliers;
-    // All to one side, so that their mean isn't zero.
+    // All points move to the same side, so that their mean is not zero.
     scene.points[k].in_map -= (0.1 + 0.7 * random.Uniform()) * scene.points[k].normal_in_map;
   }
   const CameraTrackerResult result = scene.Track(CameraPose());
@@ -70,7 +70,8 @@ TEST(TrackCamera, IsNotMovedByOutliers) {
   EXPECT_LT(result.inliers, (1.0 - 0.9 * outliers / scene.points.size()) * result.measured);
 }
 
-// The map's own formula in place of the surface's patches: what is left are the patches' errors.
+// The map uses the formula itself and not the patches of the surface, so that the remaining error
+// is that of the patches.
 TEST(TrackCamera, FindsTheMotionOfAnIndependentMap) {
   HillScene scene;
   scene.camera_from_map = TruePose();
@@ -91,15 +92,15 @@ TEST(TrackCamera, FindsTheMotionOfAnIndependentMap) {
     }
   }
   const CameraTrackerResult result = TrackCamera(points, {}, surface, CameraPose(), {});
-  // The mean square of a window's pixels from its middle is 4 x 4 pixels, 0.018 either way here; at
-  // hills of curvature 1 a fit is off by half of both, 0.018. Crests and valleys cancel out to a
-  // quarter or better; the view reaches 4 to each side.
+  // The mean square distance of a window's pixels from its middle is 4 x 4 pixels, here 0.018 in
+  // each direction. At hills of curvature 1 the error of a fit is half the sum of both, 0.018. The
+  // errors of crests and valleys cancel to a quarter or better; the view reaches 4 to each side.
   EXPECT_LT((result.camera_from_map.translation - scene.camera_from_map.translation).norm(),
             0.25 * 0.018);
   EXPECT_LT(AngleBetween(result.camera_from_map, scene.camera_from_map), 0.25 * 0.018 / 4.0);
 }
 
-// A flat sheet says nothing of a slide along it and of a turn about its normal.
+// A flat sheet does not determine a slide along itself and a rotation about its normal.
 TEST(TrackCamera, KeepsWhatAFlatSheetLeavesOpen) {
   const PlaneScene plane = TiltedPlane(6.0, 25.0, 50.0);
   const TrackedScene scene(plane, CameraPose());
@@ -121,7 +122,7 @@ TEST(TrackCamera, FindsTheSlideByPointMatches) {
   for (std::size_t k = 0; k < scene.points.size(); k += 40) {
     matches.push_back({scene.points[k].in_map, scene.points[k].in_camera});
   }
-  // One in five is wrong.
+  // Every fifth match is wrong.
   for (std::size_t k = 0; k < matches.size(); k += 5) matches[k].in_camera.x() += 0.5;
   const CameraTrackerResult result = scene.Track(CameraPose(), matches);
   EXPECT_LT(AngleBetween(result.camera_from_map, truth), 1e-6);

@@ -109,7 +109,7 @@ TEST(Checkpoint, SaysWhatIsMissingOrOfAnotherSize) {
   (*other)->Column(
       "place", &rows, [](Row & row) -> auto& { return row.place; });
   EXPECT_THAT((*other)->status().message(), HasSubstr("place has 6 numbers, expected 9"));
-  // The first error counts, and names in a group that isn't there are no crash.
+  // The first error is reported, and names in a group that does not exist do not crash.
   (*other)->Enter("nowhere");
   (*other)->Value("whole", &number);
   (*other)->Leave();
@@ -129,7 +129,7 @@ TEST(Checkpoint, RefusesEveryFlippedByteAndEveryCut) {
 }
 
 TEST(Checkpoint, SaysOfWhatVersionAnOlderOneIs) {
-  // Whatever wrote it: short heads, as version 2 had them.
+  // The error names the version of a checkpoint with a short header, as version 2 wrote it.
   const nlohmann::json old = {{"format", "ceres_ed checkpoint"},
                               {"version", 2},
                               {"payload", nlohmann::json::binary({1, 2, 3})}};
@@ -158,14 +158,14 @@ TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {
   ASSERT_EQ(loaded.size(), 700u);
   for (std::size_t r = 0; r < rows.size(); ++r) EXPECT_EQ(loaded[r][2], static_cast<float>(r));
   EXPECT_EQ(loaded_list, list);
-  // Rows of another width.
+  // Rows with another width.
   ChunkedRows<double> wide(11);
   (*reader)->Rows("rows", &wide);
   EXPECT_EQ(wide.size(), 0u);
   EXPECT_THAT((*reader)->status().message(), HasSubstr("expected a multiple of 88"));
 }
 
-// Tracks frames [first, last) of a sheet that heaves.
+// Tracks frames [first, last) of a sheet that moves up and down.
 std::vector<FrameReport> Track(int first, int last, DeformableSlam* slam) {
   BumpyScene scene;
   scene.heave = 0.001;
@@ -194,7 +194,7 @@ TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {
   const std::string bytes = SaveSlam(saved.get());
 
   const std::unique_ptr<DeformableSlam> loaded = MakeBumpySlam();
-  // Whatever it held is gone.
+  // Everything that the object held before is replaced.
   Track(2, 3, loaded.get());
   const auto reader = CheckpointReader::Open(bytes);
   ASSERT_TRUE(reader.ok());

@@ -29,7 +29,7 @@ int Pick(int count, Random* random) {
   return std::min(count - 1, static_cast<int>(count * random->Uniform()));
 }
 
-// A binding with its own memory.
+// A binding that owns its memory.
 struct OwnBinding {
   std::vector<int> nodes;
   std::vector<double> weights;
@@ -37,7 +37,7 @@ struct OwnBinding {
   Binding Get() const { return {nodes.data(), weights.data(), static_cast<int>(nodes.size())}; }
 };
 
-// Up to four of `num_nodes` nodes, once each.
+// Returns a binding to up to four of `num_nodes` nodes, each at most once.
 OwnBinding RandomBinding(int num_nodes, Random* random) {
   OwnBinding binding;
   double sum = 0.0;
@@ -77,7 +77,8 @@ TEST(DeformableMap, PutsANodeWhereItIsNow) {
   EXPECT_EQ(map.state().num_nodes(), 5);
 }
 
-// What the map should hold: for each slot in use its point's id and strongest node.
+// The expected contents of the map: for each used slot the identifier and the strongest node of its
+// point.
 struct Model {
   std::map<int, std::pair<int, int>> slots;
   std::set<int> ids;
@@ -111,7 +112,7 @@ TEST(DeformableMap, KeepsItsBooksThroughAddingRemovingAndRebinding) {
     if (model.slots.empty() || dice < 0.45) {
       const OwnBinding binding = RandomBinding(20, &random);
       MapPoint point;
-      // Whatever the caller says of the id doesn't count.
+      // The identifier that the caller sets is ignored.
       point.id = 3;
       point.position = RandomVector(2.0, &random);
       const int slot = map.AddPoint(point, binding.Get());
@@ -138,7 +139,7 @@ TEST(DeformableMap, KeepsItsBooksThroughAddingRemovingAndRebinding) {
       }
     }
     most = std::max(most, static_cast<int>(model.slots.size()));
-    // Slots of points that are gone are used again before new ones are made.
+    // The slots of removed points are used again before new slots are added.
     ASSERT_EQ(map.num_slots(), most);
     if (step % 50 == 0) model.ExpectIn(map);
   }

@@ -1,4 +1,4 @@
-// Depth images of surfaces that a formula describes, and what the formula says of them.
+// Depth images of surfaces that are given by a formula, with the expected results.
 #ifndef CERES_ED_TEST_SLAM_DEPTH_SCENES_H_
 #define CERES_ED_TEST_SLAM_DEPTH_SCENES_H_
 
@@ -16,13 +16,13 @@
 
 namespace ceres_ed {
 
-// Depth images are floats: the relative error of a pixel.
+// The relative error of a pixel, because depth images store floats.
 constexpr double kFloatRounding = 6e-8;
 
-// A field of view of 67 by 53 degrees.
+// A camera with a field of view of 67 by 53 degrees.
 inline PinholeCamera SmallCamera() { return {120.0, 120.0, 79.5, 59.5, 160, 120}; }
 
-// A turn by `angle` radians about `axis`, then a shift.
+// Returns a rotation by `angle` radians about `axis`, followed by a shift.
 inline CameraPose Motion(double angle,
                          const Eigen::Vector3d& axis,
                          const Eigen::Vector3d& translation) {
@@ -32,8 +32,8 @@ inline CameraPose Motion(double angle,
   return motion;
 }
 
-// The depth image of depth_of(ray), which returns the z at which a ray (x, y, 1) of the camera
-// frame meets the surface, 0 where it doesn't.
+// Returns the depth image of depth_of(ray), which returns the z at which a ray (x, y, 1) of the
+// camera frame meets the surface, or 0 if it does not.
 template <typename DepthOf>
 DepthImage RenderDepth(const PinholeCamera& camera, const DepthOf& depth_of) {
   DepthImage depth(camera.width, camera.height, 0.0F);
@@ -45,7 +45,7 @@ DepthImage RenderDepth(const PinholeCamera& camera, const DepthOf& depth_of) {
   return depth;
 }
 
-// The plane through `point` with the unit `normal`, camera frame.
+// The plane through `point` with the unit vector `normal`, in the camera frame.
 struct PlaneScene {
   Eigen::Vector3d point;
   Eigen::Vector3d normal;
@@ -57,8 +57,8 @@ struct PlaneScene {
   double Distance(const Eigen::Vector3d& x) const { return normal.dot(x - point); }
 };
 
-// A plane at `depth` on the optical axis, tilted by `slope_deg` toward `azimuth_deg`; its normal
-// points to the camera.
+// Returns a plane at `depth` on the optical axis, tilted by `slope_deg` toward `azimuth_deg`. Its
+// normal points to the camera.
 inline PlaneScene TiltedPlane(double depth, double slope_deg, double azimuth_deg) {
   const double slope = slope_deg * M_PI / 180.0;
   const double azimuth = azimuth_deg * M_PI / 180.0;
@@ -67,8 +67,8 @@ inline PlaneScene TiltedPlane(double depth, double slope_deg, double azimuth_deg
       {std::sin(slope) * std::cos(azimuth), std::sin(slope) * std::sin(azimuth), -std::cos(slope)}};
 }
 
-// z = depth + hills in the map's frame, under a camera anywhere near the map's own. Slopes up to
-// 35 degrees in both directions, so that no motion leaves it as it is.
+// The surface z = depth + hills in the map frame, under a camera near the origin of the map. The
+// slopes are up to 35 degrees in both directions, so that no motion maps the surface onto itself.
 struct HillScene {
   double depth = 8.0;
   CameraPose camera_from_map;
@@ -90,7 +90,7 @@ struct HillScene {
   }
 };
 
-// A visible point of a map whose frame is that of the camera at `camera_from_map`.
+// Returns a visible point of a map for a camera at `camera_from_map`.
 inline VisiblePoint MakeVisible(const PinholeCamera& camera,
                                 const CameraPose& camera_from_map,
                                 const Eigen::Vector3d& in_camera,

@@ -32,7 +32,7 @@ FeatureOptions DenseFeatures() {
   return options;
 }
 
-// Median distance of the matches from a slide of the sheet, all of it.
+// Returns the median difference of the matches from a slide of the whole sheet.
 double MedianError(const FeaturePoints& features,
                    const DeformableMap& map,
                    const Eigen::Vector3d& slide) {
@@ -44,7 +44,7 @@ double MedianError(const FeaturePoints& features,
   return Median(errors);
 }
 
-// A textured sheet that slides along itself, which its depth doesn't show.
+// A textured sheet that slides along itself, which its depth does not show.
 class FeaturePointsTest : public ::testing::Test {
  protected:
   FeaturePointsTest() : surface_(Sheet()), features_(DenseFeatures()) {
@@ -123,13 +123,13 @@ TEST_F(FeaturePointsTest, AreGoneWhereThereIsNoSurface) {
   EXPECT_GT(features_.size(), 0.3 * born_);
   EXPECT_LT(features_.size(), 0.7 * born_);
   for (const PointMatch& m : features_.Matches(map_)) EXPECT_GT(m.in_camera.x(), 0.0);
-  // New ones are looked for on what there is.
+  // New corners are searched on the remaining part.
   features_.Replenish(half, map_);
   for (const PointMatch& m : features_.Matches(map_)) EXPECT_GT(m.in_camera.x(), 0.0);
 }
 
 TEST_F(FeaturePointsTest, DropThoseThatTheSolvedMapContradicts) {
-  // Right of the middle the tissue slides by 4 pixels, and the map doesn't follow there.
+  // To the right of the middle the tissue slides by 4 pixels, and the map does not follow it there.
   ColorImage torn = TexturedPicture({0.4, 0.0}, EvenLight);
   const ColorImage slid = TexturedPicture({4.4, 0.0}, EvenLight);
   for (int v = 0; v < 120; ++v) {
@@ -138,14 +138,14 @@ TEST_F(FeaturePointsTest, DropThoseThatTheSolvedMapContradicts) {
   features_.Track(torn, surface_, map_, map_.state().camera_from_map);
   const int before = features_.size();
   const double deviation = features_.DropOutliers(map_, 1e-4);
-  // The rest is off by 0.4 pixels: six times 1.48 of that is 3.6 pixels.
+  // The other corners are off by 0.4 pixels: six times 1.48 of that is 3.6 pixels.
   EXPECT_NEAR(deviation, 1.4826 * 0.4 * kPixel, 0.15 * kPixel);
   EXPECT_LT(features_.size(), before - 3);
   EXPECT_GT(features_.size(), 0.6 * before);
   for (const PointMatch& m : features_.Matches(map_)) {
     EXPECT_LE((map_.state().camera_from_map * m.in_map - m.in_camera).norm(), 6.0 * deviation);
   }
-  // A bound from below: nothing is dropped for being off by less.
+  // With a lower bound of the deviation, corners with smaller errors are not removed.
   const int left = features_.size();
   EXPECT_EQ(features_.DropOutliers(map_, 10.0), 10.0);
   EXPECT_EQ(features_.size(), left);

@@ -1,4 +1,4 @@
-// Changes to a map that no level made.
+// Changes of a map that do not come from a level.
 #ifndef CERES_ED_TEST_SLAM_MAP_EDITS_H_
 #define CERES_ED_TEST_SLAM_MAP_EDITS_H_
 
@@ -11,7 +11,8 @@
 
 namespace ceres_ed {
 
-// `edit(parameters)` changes a copy of a node's twelve numbers, which then become the node's.
+// Calls edit(parameters) with a copy of a node's twelve parameters, which then become those of the
+// node.
 template <typename Edit>
 void EditNode(DeformableMap* map, int node, Edit edit) {
   std::array<double, kNodeSize> parameters;

@@ -15,7 +15,7 @@
 namespace ceres_ed {
 namespace {
 
-// A map keeps normals to half of 1 / 32767 a component, which strain may double.
+// The map stores each component of a normal to half of 1 / 32767; strain may double the error.
 constexpr double kNormalError = 1.8 / 32767.0;
 
 ObservedSurface Observe(const DepthImage& depth) {
@@ -28,7 +28,7 @@ ObservedSurface ObserveHills(const CameraPose& camera_from_map) {
   return Observe(RenderDepth(SmallCamera(), scene));
 }
 
-// Points in view of the map's own camera.
+// Returns the points in view of the map's own camera.
 std::vector<VisiblePoint> Visible(const DeformableMap& map) {
   return FindVisible(map, map.state().camera_from_map, SmallCamera(), {});
 }
@@ -42,7 +42,7 @@ Eigen::Vector3d WarpedPoint(const DeformableMap& map, int slot) {
   return WarpPoint(map.graph(), map.state(), binding, map.point(slot).position);
 }
 
-// A new map of the hills, seen from a place that isn't the origin.
+// Returns a new map of the hills, seen from a place that is not the origin.
 DeformableMap FirstMap() {
   DeformableMap map;
   map.SetCamera(Motion(0.1, {1.0, 2.0, 0.0}, {0.3, -0.2, 0.1}));
@@ -80,7 +80,8 @@ TEST(GrowMap, CoversWhatIsSeenWithPointsOneSpacingApart) {
     points.push_back(camera_from_map * WarpedPoint(map, slot));
   }
   int checked = 0;
-  // Every patch (none is too grazing here) has a point within the spacing, as the picture shows it.
+  // Every patch (none is seen at too grazing an angle) has a point within the spacing, as seen in
+  // the picture.
   for (int j = 0; j < surface.height(); ++j) {
     for (int i = 0; i < surface.width(); ++i) {
       const SurfacePatch& patch = surface.patch(i, j);
@@ -93,11 +94,11 @@ TEST(GrowMap, CoversWhatIsSeenWithPointsOneSpacingApart) {
       EXPECT_TRUE(covered) << pixel.transpose();
     }
   }
-  // The last one's window is cut off at the corner.
+  // The window of the last patch is cut off at the corner.
   EXPECT_EQ(checked, 80 * 60 - 1);
-  // A disc of the picture with radius f s / z around a point: whatever is seen outside of it is
-  // farther than s times the cosine of its angle to the axis. No rounding to pixels enters, for
-  // points are where pixels are.
+  // A disc of the picture with radius f s / z around a point: everything seen outside of it is
+  // farther away than s times the cosine of its angle to the axis. There is no rounding to pixels,
+  // because the points are at pixels.
   for (std::size_t a = 0; a < points.size(); ++a) {
     for (std::size_t b = a + 1; b < points.size(); ++b) {
       const double cosine = points[b].z() / points[b].norm();
@@ -115,7 +116,7 @@ TEST(GrowMap, PutsNodesWherePointsNeedThem) {
       nearest = std::min(nearest, (map.NodePosition(j) - WarpedPoint(map, slot)).norm());
     }
     EXPECT_LE(nearest, coverage + 1e-12);
-    // Carried by the nodes nearest to it, that one first.
+    // The point is bound to the nodes nearest to it, with the nearest one first.
     EXPECT_NEAR((map.NodePosition(map.binding(slot).nodes[0]) - WarpedPoint(map, slot)).norm(),
                 nearest,
                 1e-12);
@@ -185,7 +186,7 @@ TEST(GrowMap, LeavesGrazingPatchesUntilTheyAreSeenBetter) {
   }
 }
 
-// A map that has deformed since, under a camera that has moved on: new points and nodes join it.
+// A map that has deformed since, under a camera that has moved on; new points and nodes are added.
 class GrowDeformedMap : public ::testing::Test {
  protected:
   GrowDeformedMap() {
@@ -223,7 +224,7 @@ TEST_F(GrowDeformedMap, PutsNewPointsWhereTheyAreSeen) {
     const SurfacePatch* patch = surface_->Find(SmallCamera().Project(point.birth_position));
     ASSERT_NE(patch, nullptr);
     EXPECT_LT((camera_from_map * WarpedPoint(map_, slot) - patch->point).norm(), 1e-12);
-    // As a map keeps it.
+    // The value as the map stores it.
     EXPECT_EQ(point.birth_position, patch->point.cast<float>().cast<double>());
     const Eigen::Vector3d normal =
         camera_from_map.rotation * WarpNormal(map_.state(), binding, point.normal);
@@ -242,7 +243,7 @@ TEST_F(GrowDeformedMap, PutsNewNodesOnTheSurfaceThatAskedForThem) {
     const SurfacePatch* patch = surface_->Find(SmallCamera().Project(x));
     ASSERT_NE(patch, nullptr);
     EXPECT_LT((x - patch->point).norm(), 1e-12);
-    // It starts as the nodes near it turn, without the strain that they have.
+    // The node starts with the rotation of the nodes near it, without their strain.
     const Eigen::Matrix3d affine = NodeAffine(map_.state().node(j));
     EXPECT_GT((affine - Eigen::Matrix3d::Identity()).norm(), 1e-3);
     EXPECT_LT((affine.transpose() * affine - Eigen::Matrix3d::Identity()).norm(), 1e-12);

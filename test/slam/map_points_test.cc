@@ -51,7 +51,7 @@ TEST(MapPoints, KeepsPlacesToTheBitAndTheRestToTheirSteps) {
       EXPECT_NEAR(
           out.birth_position[i], in.birth_position[i], kFloatStep * std::abs(in.birth_position[i]));
     }
-    // What is kept once is kept as it is from then on.
+    // A point that was stored once does not change when it is stored again.
     points.Set(slot, out);
     EXPECT_EQ(points[slot].normal, out.normal);
     EXPECT_EQ(points[slot].weight, out.weight);
@@ -72,7 +72,7 @@ TEST(MapPoints, HoldsTheEndsOfItsRanges) {
   EXPECT_EQ(points.id(0), -1);
   points.Remove(1);
   EXPECT_EQ(points.id(1), -1);
-  // No normal stays none.
+  // A missing normal stays missing.
   point.normal.setZero();
   points.Set(2, point);
   EXPECT_EQ(points[2].normal, Eigen::Vector3d::Zero());
@@ -104,7 +104,7 @@ TEST(MapPoints, KeepsWeightsThatSumToOneInDouble) {
       }
       EXPECT_NEAR(total + out.weights[0], 1.0, 1e-15);
       EXPECT_TRUE(std::equal(nodes.begin(), nodes.end(), out.nodes));
-      // Who rounds first gets what is kept.
+      // Rounding a binding before it is stored gives the stored binding.
       const PointBinding kept = MapPoints::Kept({nodes.data(), weights.data(), size});
       EXPECT_TRUE(std::equal(out.weights, out.weights + size, kept.weights));
     }

@@ -49,7 +49,7 @@ TEST(ViewVolume, TouchesEveryBallWithAPointInThePicture) {
       EXPECT_TRUE(view.MayTouch(point, 0.0));
       EXPECT_TRUE(view.MayTouch(point + 2.999 * direction, 3.0));
     } else {
-      // A point is no ball: what isn't in the picture is outside.
+      // A point is a ball without radius: a point outside the picture is outside the volume.
       EXPECT_FALSE(view.MayTouch(point, -1e-9));
       ++refused;
     }
@@ -58,8 +58,8 @@ TEST(ViewVolume, TouchesEveryBallWithAPointInThePicture) {
   EXPECT_GT(refused, 1000);
 }
 
-// Against a look at every node; cells are up to 4 wide, so that nodes up to their diagonal farther
-// away may come along.
+// Compares with a test of every node. Cells are up to 4 wide, so nodes that are farther away by up
+// to their diagonal may be included.
 TEST(NodeIndex, FindsWhatALookAtEveryNodeFinds) {
   Random random(2);
   NodeIndex index;
@@ -69,7 +69,7 @@ TEST(NodeIndex, FindsWhatALookAtEveryNodeFinds) {
     index.Place(j, places.back());
   }
   for (int round = 0; round < 50; ++round) {
-    // Some move, far or near.
+    // Some nodes move, by large or small distances.
     for (int k = 0; k < 100; ++k) {
       const int node = (round * 7919 + k * 104729) % 3000;
       places[node] += RandomPlace(k % 2 == 0 ? 0.1 : 50.0, &random);

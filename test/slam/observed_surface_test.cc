@@ -15,10 +15,11 @@ ObservedSurface Observe(const DepthImage& depth, double scale = 1.0) {
   return ObservedSurface(depth, SmallCamera(), scale, ObservedSurfaceOptions());
 }
 
-// All but the last one, whose window of 4 x 4 pixels at the corner is less than 0.4 of 7 x 7.
+// All patches except the last one, whose window of 4 x 4 pixels at the corner is less than 0.4 of 7
+// x 7.
 constexpr int kAllValid = 80 * 60 - 1;
 
-// The pixel that patch (i, j) stands at: the middle of its cell of 2 x 2.
+// Returns the pixel of patch (i, j), the middle of its cell of 2 x 2.
 Eigen::Vector2d PixelOf(int i, int j) { return {2.0 * i + 1.0, 2.0 * j + 1.0}; }
 
 bool SamePatches(const ObservedSurface& a, const ObservedSurface& b) {
@@ -33,9 +34,9 @@ bool SamePatches(const ObservedSurface& a, const ObservedSurface& b) {
 }
 
 TEST(ObservedSurface, IsExactOnPlanesOfAnySlope) {
-  // Least squares carry the pixels' rounding e over to the relative inverse depth by less than 2 e
-  // (4 e in a corner of the picture) and to a slope by 2 e f. With the ratio of depths in view
-  // (1.6 to either side at 45 degrees) that is what follows.
+  // The least-squares fit transfers the pixels' rounding error e to the relative inverse depth by
+  // less than 2 e (4 e in a corner of the picture), and to a slope by 2 e f. The bounds follow with
+  // the ratio of the depths in view (1.6 to either side at 45 degrees).
   const double point_bound = 10.0 * kFloatRounding;
   const double normal_bound = 4.0 * kFloatRounding * 120.0;
   for (const double slope : {0.0, 15.0, 30.0, 45.0}) {
@@ -77,9 +78,10 @@ TEST(ObservedSurface, ScalesLengthsAlone) {
 }
 
 TEST(ObservedSurface, ErrsOnASphereByItsCurvatureAlone) {
-  // Radius 0.1 at 0.3. Over a window of half-width r = 3 pixels a surface departs from its tangent
-  // plane by at most s^2 (1 + tan^2) / (2 R cos), with s the window's half-diagonal along the
-  // surface; a fit of the plane stays within that, and its normal within s / R.
+  // The radius is 0.1 at a distance of 0.3. Over a window of half-width r = 3 pixels, a surface
+  // differs from its tangent plane by at most s^2 (1 + tan^2) / (2 R cos), where s is half the
+  // diagonal of the window along the surface. The fit of a plane stays within that, and its normal
+  // within s / R.
   const Eigen::Vector3d center(0.01, -0.02, 0.3);
   const double radius = 0.1;
   const auto sphere = [&](const Eigen::Vector3d& ray) {
@@ -108,7 +110,7 @@ TEST(ObservedSurface, ErrsOnASphereByItsCurvatureAlone) {
 }
 
 TEST(ObservedSurface, DoesNotAverageOverADepthJump) {
-  // A step of the depth: left at 0.30, right at 0.36, which is a slope of 87 degrees.
+  // A step of the depth: 0.30 on the left, 0.36 on the right, which is a slope of 87 degrees.
   const auto step = [](const Eigen::Vector3d& ray) { return ray.x() < 0.0 ? 0.30 : 0.36; };
   const ObservedSurface surface = Observe(RenderDepth(SmallCamera(), step));
   for (int j = 0; j < surface.height(); ++j) {
@@ -120,14 +122,14 @@ TEST(ObservedSurface, DoesNotAverageOverADepthJump) {
       EXPECT_NEAR(patch.normal.z(), -1.0, 1e-9);
     }
   }
-  // Beside the step a window has 4 of 7 columns of its own surface, more than 0.4 of it; but not
-  // where the last row cuts it off as well.
+  // Beside the step a window has 4 of 7 columns of its own surface, which is more than 0.4 of it,
+  // except where the last row cuts it off as well.
   EXPECT_EQ(surface.num_valid(), kAllValid - 1);
 }
 
 TEST(ObservedSurface, LeavesOutHolesAndWhatIsNotADepth) {
   DepthImage depth = RenderDepth(SmallCamera(), TiltedPlane(0.3, 10.0, 0.0));
-  // One dead pixel at a patch, one beside another, a hole of 20 x 20, a NaN, an infinity.
+  // One dead pixel at a patch, one beside another patch, a hole of 20 x 20, a NaN, an infinity.
   depth(21, 21) = 0.0F;
   depth(40, 41) = 0.0F;
   for (int v = 60; v < 80; ++v) {
@@ -156,9 +158,10 @@ TEST(ObservedSurface, HasNothingToShowOfAnEmptyImage) {
 }
 
 TEST(ObservedSurface, MeasuresTheNoiseOfAPixel) {
-  // Windows of 49 pixels with 46 degrees of freedom: the median of their deviation is
-  // (1 - 2 / (9 46))^1.5 = 0.9927 sigma. 19200 / 49 = 392 windows have nothing in common, each with
-  // a spread of sigma / sqrt(92): the median is known to 0.0066 sigma; three times that.
+  // The windows of 49 pixels have 46 degrees of freedom; the median of their deviations is (1 - 2 /
+  // (9 46))^1.5 = 0.9927 sigma. 19200 / 49 = 392 windows have no pixels in common, and each has a
+  // spread of sigma / sqrt(92), so that the median is known to 0.0066 sigma; the bound is three
+  // times that.
   const double sigma = 0.4e-3;
   Random random(7);
   DepthImage depth = RenderDepth(SmallCamera(), TiltedPlane(0.3, 15.0, 30.0));
@@ -209,7 +212,7 @@ TEST(ObservedSurface, CoversPicturesThatCellsDoNotDivide) {
   EXPECT_EQ(surface.height(), 5);
   const SurfacePatch* last = surface.Find({16.4, 12.4});
   EXPECT_EQ(last, surface.patch(5, 4).valid() ? &surface.patch(5, 4) : nullptr);
-  // Cut off: the middle of the last cell would be outside.
+  // The cell is cut off, because its middle would be outside.
   EXPECT_LT((camera.Project(surface.patch(5, 2).point) - Eigen::Vector2d(16.0, 7.0)).norm(), 1e-12);
 }
 

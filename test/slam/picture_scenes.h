@@ -1,4 +1,4 @@
-// Pictures whose every pixel is known to move by a known amount.
+// Pictures in which every pixel moves by a known amount.
 #ifndef CERES_ED_TEST_SLAM_PICTURE_SCENES_H_
 #define CERES_ED_TEST_SLAM_PICTURE_SCENES_H_
 
@@ -12,8 +12,8 @@
 
 namespace ceres_ed {
 
-// A textured sheet, 0.5 mm a pixel, shifted by `shift` pixels, under light(u, v) in [0, 1] that
-// belongs to the picture.
+// Returns a picture of a textured sheet, 0.5 mm per pixel, shifted by `shift` pixels, under
+// light(u, v) in [0, 1] that is fixed in the picture.
 template <typename Light>
 ColorImage TexturedPicture(const Eigen::Vector2d& shift, const Light& light, int seed = 1) {
   constexpr double kPixel = 0.5e-3;
@@ -34,7 +34,7 @@ ColorImage TexturedPicture(const Eigen::Vector2d& shift, const Light& light, int
 
 inline double EvenLight(double, double) { return 1.0; }
 
-// A lamp at the camera that leaves the corners dark.
+// The light of a lamp at the camera, which leaves the corners dark.
 inline double LampLight(double u, double v) {
   const double x = (u - 79.5) / 45.0;
   const double y = (v - 59.5) / 45.0;

@@ -19,7 +19,7 @@ PixelTrackerOptions DenseCorners() {
   return options;
 }
 
-// Corners of the first picture, and where they are in the second.
+// Corners of the first picture, and their positions in the second.
 struct Followed {
   std::vector<Eigen::Vector2d> before;
   std::vector<TrackedPixel> after;
@@ -33,7 +33,8 @@ Followed Follow(const ColorImage& first,
   options.num_threads = num_threads;
   PixelTracker tracker(options);
   tracker.SetImage(first);
-  // Corners keep 12 pixels from the rim, so that their windows move inside of the picture.
+  // Corners keep a distance of 12 pixels from the rim, so that their windows stay inside the
+  // picture.
   MaskImage inside(first.width(), first.height(), 0);
   for (int v = 12; v < first.height() - 12; ++v) {
     for (int u = 12; u < first.width() - 12; ++u) inside(u, v) = 1;
@@ -57,7 +58,7 @@ std::vector<double> Errors(const Followed& followed, const Eigen::Vector2d& shif
   return errors;
 }
 
-// One step of textbook Lucas-Kanade from the true place: the shift that it believes in.
+// Returns the shift that one step of the plain Lucas-Kanade method computes from the true position.
 Eigen::Vector2d PlainStep(const ColorImage& first,
                           const ColorImage& second_at_first,
                           const Eigen::Vector2d& pixel) {
@@ -100,7 +101,7 @@ TEST(PixelTracker, FindsFarShiftsByTheirPrediction) {
   EXPECT_LT(Median(errors), 0.1);
 }
 
-// The lamp moves with the camera: its light stands still in the picture while tissue passes by.
+// The lamp moves with the camera: its light is fixed in the picture while the tissue moves.
 TEST(PixelTracker, IsNotHeldBackByLightThatStandsStill) {
   const Eigen::Vector2d shift(6.0, -4.0);
   const ColorImage first = TexturedPicture({0, 0}, LampLight);
@@ -109,7 +110,8 @@ TEST(PixelTracker, IsNotHeldBackByLightThatStandsStill) {
   const std::vector<double> errors = Errors(followed, shift);
   EXPECT_GT(errors.size(), 0.8 * followed.before.size());
   EXPECT_LT(Median(errors), 0.1);
-  // What plain Lucas-Kanade makes of it from the true place: the light alone has changed there.
+  // The error of the plain Lucas-Kanade method at the true position, where only the light has
+  // changed.
   const ColorImage second_at_first =
       TexturedPicture({0, 0}, [&](double u, double v) { return LampLight(u + 6.0, v - 4.0); });
   std::vector<double> plain;
@@ -131,7 +133,7 @@ TEST(PixelTracker, IsNotMovedByALampThatDims) {
 TEST(PixelTracker, FlagsWhatIsCoveredOrOutOfThePicture) {
   const ColorImage first = TexturedPicture({0, 0}, EvenLight);
   ColorImage second = TexturedPicture({0, 0}, EvenLight);
-  // The left third is covered by something smooth, the right one by other tissue.
+  // The left third is covered by something smooth, and the right third by other tissue.
   const ColorImage other = TexturedPicture({0, 0}, EvenLight, 99);
   for (int v = 0; v < 120; ++v) {
     for (int u = 0; u < 160; ++u) {
@@ -147,7 +149,7 @@ TEST(PixelTracker, FlagsWhatIsCoveredOrOutOfThePicture) {
   int kept = 0;
   int kept_found = 0;
   for (std::size_t i = 0; i < followed.before.size(); ++i) {
-    // With all of their window in one of the three.
+    // The whole window lies in one of the three parts.
     const double u = followed.before[i].x();
     const bool found = followed.after[i].found;
     if (u < 40) ++smooth, smooth_found += found;
@@ -156,7 +158,8 @@ TEST(PixelTracker, FlagsWhatIsCoveredOrOutOfThePicture) {
   }
   EXPECT_GT(std::min({smooth, strange, kept}), 10);
   EXPECT_EQ(smooth_found, 0);
-  // Some corner of the other tissue is often near enough to lead there and back again.
+  // Some corner of the other tissue is often near enough to be found, and found again in the
+  // opposite direction.
   EXPECT_LE(strange_found, strange / 3);
   EXPECT_EQ(kept_found, kept);
 }

@@ -9,7 +9,7 @@
 namespace ceres_ed {
 namespace {
 
-// The kidney seen by frames 0 to 3.
+// Returns the map of the kidney from frames 0 to 3.
 std::unique_ptr<DeformableSlam> MappedKidney() {
   std::unique_ptr<DeformableSlam> slam = MakeSlam(KidneySequence().camera, FastOptions());
   for (int k = 0; k < 4; ++k) slam->Process(KidneySequence().Frame(k));
@@ -23,7 +23,8 @@ ObservedSurface SurfaceOf(const DeformableSlam& slam, int frame) {
                          ObservedSurfaceOptions());
 }
 
-// `pose` with the camera turned by `degrees` about the scene's middle, at `distance` before it.
+// Returns `pose` with the camera rotated by `degrees` about the centre of the scene, at `distance`
+// in front of it.
 CameraPose TurnedAway(const CameraPose& pose, double degrees, double distance) {
   const Eigen::Vector3d center(0.0, 0.0, distance);
   const Eigen::Quaterniond turn(
@@ -66,7 +67,8 @@ TEST(Relocalization, FindsTheCameraAgain) {
   const Relocalization found =
       Relocalize(slam->map(), surface, lost, VisibilityOptions(), PoseQualityOptions());
   EXPECT_FALSE(PoseQualityOptions().Doubts(found.quality));
-  // A smooth body may slide along itself a little: a tenth of a node spacing, of some eight across.
+  // A smooth body may slide along itself a little: by a tenth of a node spacing, of about eight
+  // across the body.
   const Eigen::Vector3d center = truth.ApplyInverse({0.0, 0.0, MiddleDepth(surface)});
   EXPECT_LT((found.camera_from_map * center - truth * center).norm(), 0.1);
   EXPECT_LT(found.camera_from_map.rotation.angularDistance(truth.rotation), 2.0 * M_PI / 180.0);
@@ -74,7 +76,7 @@ TEST(Relocalization, FindsTheCameraAgain) {
 
 TEST(Relocalization, TracksOnAfterAJump) {
   const auto slam = MappedKidney();
-  // The picture is turned half way round: no prediction leads there.
+  // The picture is rotated by half a turn, which no prediction can reach.
   const SlamFrame frame = KidneySequence().Frame(3);
   DepthImage turned(frame.depth.width(), frame.depth.height());
   for (int v = 0; v < turned.height(); ++v) {
@@ -94,7 +96,7 @@ TEST(Relocalization, TracksOnAfterAJump) {
 
 TEST(Relocalization, SaysLostAndLeavesTheMapAlone) {
   const auto slam = MappedKidney();
-  // A wall much nearer than the organ, that was never mapped.
+  // A wall much nearer than the organ, which was never mapped.
   DepthImage wall(KidneySequence().camera.width, KidneySequence().camera.height);
   for (int v = 0; v < wall.height(); ++v) {
     for (int u = 0; u < wall.width(); ++u) {
@@ -113,7 +115,7 @@ TEST(Relocalization, SaysLostAndLeavesTheMapAlone) {
   EXPECT_EQ(slam->camera_from_map().rotation.coeffs(), before.rotation.coeffs());
   EXPECT_EQ(slam->map().num_points(), points);
   EXPECT_EQ(slam->map().graph().num_nodes(), nodes);
-  // And goes on when the organ is back.
+  // Tracking continues when the organ is in view again.
   EXPECT_EQ(slam->Process(KidneySequence().Frame(4)).status, FrameStatus::kTracked);
 }
 

@@ -1,4 +1,4 @@
-// Short simulated sequences without noise, and what tracking and mapping makes of them.
+// Short simulated sequences without noise, and the results of tracking and mapping.
 #ifndef CERES_ED_TEST_SLAM_SLAM_RUNS_H_
 #define CERES_ED_TEST_SLAM_SLAM_RUNS_H_
 
@@ -18,7 +18,7 @@
 
 namespace ceres_ed {
 
-// Frames of 160 x 120 with full truth.
+// Frames of 160 x 120 pixels with full truth.
 struct ShortSequence {
   explicit ShortSequence(SyntheticSceneKind kind, int num_frames = 8) {
     SyntheticSequenceOptions options;
@@ -40,7 +40,7 @@ struct ShortSequence {
     }
   }
 
-  // Frame k as the loop takes it in.
+  // Returns frame k in the form that the tracking loop takes.
   SlamFrame Frame(int k) const {
     SlamFrame frame;
     frame.number = k;
@@ -55,7 +55,7 @@ struct ShortSequence {
   SceneTruth truth;
 };
 
-// Made once.
+// Returns a sequence that is made once.
 inline const ShortSequence& KidneySequence() {
   static const ShortSequence sequence(SyntheticSceneKind::kKidney);
   return sequence;
@@ -65,7 +65,7 @@ inline const ShortSequence& StripSequence() {
   return sequence;
 }
 
-// Fewer nodes than by default, for tests that don't ask for accuracy.
+// Returns options with fewer nodes than the default, for tests that do not need accuracy.
 inline SlamOptions FastOptions() {
   SlamOptions options;
   options.nodes_in_view = 80;
@@ -84,14 +84,14 @@ inline std::unique_ptr<DeformableSlam> MakeSlam(const PinholeCamera& camera,
   return *std::move(slam);
 }
 
-// A run over BumpyScene.
+// Returns a tracker for BumpyScene.
 inline std::unique_ptr<DeformableSlam> MakeBumpySlam() {
   SlamOptions options;
   options.nodes_in_view = 40;
   return MakeSlam(BumpyCamera(), options);
 }
 
-// Every living point in the present camera frame, metres.
+// Returns every point of the map in the present camera frame, in metres.
 inline LiveSnapshot Snapshot(const DeformableSlam& slam, int frame) {
   LiveSnapshot snapshot;
   snapshot.frame = frame;
@@ -109,7 +109,7 @@ inline LiveSnapshot Snapshot(const DeformableSlam& slam, int frame) {
   return snapshot;
 }
 
-// A run to its end, with the state after every frame.
+// A complete run, with the state after every frame.
 struct SlamRun {
   SlamRun(const ShortSequence& sequence, const SlamOptions& options) {
     slam = MakeSlam(sequence.camera, options);
@@ -126,7 +126,7 @@ struct SlamRun {
   std::vector<LiveSnapshot> snapshots;
 };
 
-// The errors of every frame.
+// Returns the errors of every frame.
 inline std::vector<FrameTruthError> Evaluate(const ShortSequence& sequence, const SlamRun& run) {
   TruthEvaluator evaluator(sequence.camera, sequence.truth);
   std::vector<FrameTruthError> errors;
@@ -138,7 +138,8 @@ inline std::vector<FrameTruthError> Evaluate(const ShortSequence& sequence, cons
   return errors;
 }
 
-// Everything that a run has to say, to compare to the bit. Lengths in map units; wall times aside.
+// Returns all results of a run, except for times, to compare runs bit by bit. Lengths are in map
+// units.
 inline std::vector<double> Bytes(const SlamRun& run) {
   std::vector<double> all;
   const auto add = [&all](const auto& values) {

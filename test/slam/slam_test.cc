@@ -15,8 +15,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Mean distance that tissue has gone from frame 0 to `frame`, world frame: what a map that stands
-// still would be wrong by under the true camera.
+// Returns the mean distance that the tissue has moved from frame 0 to `frame`, in the world frame.
+// This would be the error of a map that does not deform, under the true camera.
 double TissueMotion(const ShortSequence& sequence, int frame) {
   const std::size_t size = 3 * static_cast<std::size_t>(sequence.truth.num_vertices);
   const float* now = sequence.truth.vertices.data() + size * static_cast<std::size_t>(frame);
@@ -28,7 +28,7 @@ double TissueMotion(const ShortSequence& sequence, int frame) {
   return sum / sequence.truth.num_vertices;
 }
 
-// Metres of tissue that a pixel covers.
+// Returns the size of a pixel on the tissue, in metres.
 double PixelSize(const ShortSequence& sequence) {
   double sum = 0.0;
   int count = 0;
@@ -48,14 +48,14 @@ TEST(DeformableSlam, FollowsTissueThatDeforms) {
       EXPECT_EQ(report.status, error.frame == 0 ? FrameStatus::kInitialized : FrameStatus::kTracked)
           << error.frame;
       EXPECT_EQ(report.number, error.frame);
-      // Without noise a surface is seen to a part of a pixel's width.
+      // Without noise a surface is measured to a fraction of a pixel's width.
       EXPECT_LT(error.surface_seen->p50, 0.5 * pixel) << error.frame;
       EXPECT_LT(error.surface_seen->p95, 2.0 * pixel) << error.frame;
-      // A corner is followed to 0.1 pixels or so in each frame, and errors add up at worst; to this
-      // comes what the depth of the first frame is wrong by, a quarter of a pixel.
+      // A corner is tracked to about 0.1 pixels in each frame, and in the worst case the errors add
+      // up. The error of the depth in the first frame, a quarter of a pixel, is added.
       EXPECT_LT(error.tracking_seen->mean, (0.25 + 0.15 * error.frame) * pixel) << error.frame;
     }
-    // Far better than a map that stands still, at the end.
+    // At the end the error is much smaller than that of a map that does not deform.
     EXPECT_LT(Evaluate(*sequence, run).back().tracking_seen->mean,
               TissueMotion(*sequence, 7) / 3.0);
   }
@@ -82,7 +82,7 @@ TEST(DeformableSlam, ReportsWhatItHas) {
     }
     nodes_before = report.nodes;
   }
-  // The strip moves on: the map grows, and what is out of view no longer counts.
+  // The strip moves on: the map grows, and parts out of view no longer count.
   EXPECT_GT(run.reports.back().nodes, run.reports.front().nodes);
   EXPECT_GT(run.reports.back().updated_pi, 0);
   EXPECT_EQ(run.reports.back().nodes, run.slam->map().graph().num_nodes());
@@ -98,7 +98,7 @@ TEST(DeformableSlam, IsVerifiedWithoutAnEffectOnTheRun) {
     const BatchComparison& batch = report.batch;
     ASSERT_EQ(batch.done, report.number > 0 && report.number % 3 == 0) << report.number;
     if (!batch.done) continue;
-    // Batch is the minimum; two rings come near to it.
+    // The batch solution is the minimum; with two rings the energy is near it.
     EXPECT_GE(batch.energy, batch.batch_energy);
     EXPECT_GT(batch.batch_energy, 0.0);
     EXPECT_LT(batch.Gap(), 0.05);
@@ -135,7 +135,8 @@ TEST(DeformableSlam, GivesTheSameBytesTwiceAndOnTwoThreads) {
   EXPECT_TRUE(first == Bytes(SlamRun(KidneySequence(), options)));
 }
 
-// A power of two, which floats carry without rounding: nothing at all may change.
+// The scale is a power of two, by which floats are multiplied without rounding, so the results must
+// be the same.
 TEST(DeformableSlam, DoesNotDependOnTheUnitOfLength) {
   ShortSequence larger = KidneySequence();
   for (SyntheticFrame& frame : larger.frames) {
@@ -169,7 +170,8 @@ TEST(DeformableSlam, NeverMovesAFixedCamera) {
     EXPECT_EQ(pose.translation, Eigen::Vector3d::Zero());
   }
   EXPECT_EQ(run.reports.back().status, FrameStatus::kTracked);
-  // The tissue moves in its place: where it is seen (a mask hides half of it) the map lies on it.
+  // The camera is still and the tissue moves; where it is seen (a mask hides half of it) the map
+  // lies on it.
   const DepthAgreement agreement =
       CompareWithDepth(sequence.camera, run.snapshots.back(), sequence.frames.back().depth);
   EXPECT_LT(agreement.residual->p50, 0.5 * PixelSize(sequence));
@@ -203,8 +205,8 @@ TEST(DeformableSlam, TwoLevelAgreesWithBatch) {
   EXPECT_EQ(batch.reports.back().active, batch.reports[6].nodes);
   const FrameTruthError a = Evaluate(StripSequence(), two_level).back();
   const FrameTruthError b = Evaluate(StripSequence(), batch).back();
-  // Without a ring of PI nodes the seam is held for a frame: that costs 2 to 4 % here (and, says
-  // the paper, up to 32 % on its organs).
+  // Without a ring of PI nodes the seam is held for a frame. This costs 2 to 4 % here (and,
+  // according to the paper, up to 32 % on its organs).
   EXPECT_NEAR(a.surface_seen->p50, b.surface_seen->p50, 0.1 * b.surface_seen->p50);
   EXPECT_NEAR(a.tracking_seen->mean, b.tracking_seen->mean, 0.1 * b.tracking_seen->mean);
   EXPECT_NEAR(a.tracking_hidden->mean, b.tracking_hidden->mean, 0.1 * b.tracking_hidden->mean);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kNodes = 60;
 
-// Tissue that breathes: every node swings along its own direction, all in one phase.
+// Tissue that breathes: every node oscillates along its own direction, all with one phase.
 Eigen::Vector3d Breath(int node, double phase) {
   return std::sin(phase) * Eigen::Vector3d(0.4, 0.3 * std::cos(node), 0.5 * std::sin(0.7 * node));
 }
@@ -19,7 +19,7 @@ Eigen::Vector3d Breath(int node, double phase) {
 DeformableMap Row() {
   DeformableMap map;
   for (int j = 0; j < kNodes; ++j) {
-    // Not in a line, so that a turn shows.
+    // The nodes are not on a line, so that a rotation is determined.
     const Eigen::Vector3d g(j, 3.0 * (j % 3), 2.0 * (j % 5));
     map.AddNode(g, g, Eigen::Matrix3d::Identity());
   }
@@ -32,14 +32,14 @@ void SetTo(double phase, const Eigen::Vector3d& drift, DeformableMap* map) {
   }
 }
 
-// The first `count` nodes.
+// Returns the first `count` nodes.
 NodeSet First(int count) {
   NodeSet observed;
   for (int j = 0; j < count; ++j) observed.Add(j);
   return observed;
 }
 
-// The prior of every node in a frame that sees the first `count`.
+// Returns the prior of every node in a frame that sees the first `count` nodes.
 std::vector<Eigen::Vector3d> Recall(int count, TissueMemory* memory, DeformableMap* map) {
   memory->BeginFrame(First(count), map);
   memory->Look(First(count), *map);
@@ -51,7 +51,7 @@ std::vector<Eigen::Vector3d> Recall(int count, TissueMemory* memory, DeformableM
 
 double Phase(int frame) { return 2.0 * M_PI * frame / 24.0; }
 
-// One breath with everything in view.
+// Returns the memory of one breath with everything in view.
 TissueMemory MemoryOfOneBreath(DeformableMap* map, const TissueMemoryOptions& options = {}) {
   TissueMemory memory(options);
   for (int frame = 0; frame < 24; ++frame) {
@@ -68,7 +68,7 @@ TEST(TissueMemory, RecallsTheHiddenAtTheSamePhase) {
     SetTo(Phase(frame), Eigen::Vector3d::Zero(), &map);
     const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
     for (int j = 40; j < kNodes; ++j) {
-      // A neighbouring frame differs by up to 0.07 and is like this one by exp(-0.5).
+      // A neighbouring frame differs by up to 0.07 and has the likeness exp(-0.5).
       EXPECT_LT((recalled[j] - Breath(j, Phase(frame))).norm(), 0.05) << frame << " " << j;
     }
   }
@@ -84,7 +84,7 @@ TEST(TissueMemory, LeavesTheObservedWhereTheyAre) {
   }
 }
 
-// The gauge: what the nodes move as one body, the camera gives back.
+// The gauge: a common motion of all nodes is compensated by the camera.
 TEST(TissueMemory, CarriesACommonMotionOn) {
   DeformableMap map = Row();
   TissueMemory memory = MemoryOfOneBreath(&map);
@@ -118,7 +118,7 @@ TEST(TissueMemory, GivesTheMeanWhereNothingInViewWasKept) {
   const Eigen::Vector3d mean =
       (Breath(kNodes - 1, 0.2) + Breath(kNodes - 1, 0.6) + Breath(kNodes - 1, 1.0)) / 3.0;
   EXPECT_LT((recalled[kNodes - 1] - mean).norm(), 1e-12);
-  // Never seen: where it is.
+  // The node was never seen, so its present position is used.
   EXPECT_EQ(recalled[50], Breath(50, 1.0));
 }
 
@@ -130,25 +130,25 @@ TEST(TissueMemory, ForgetsEverySecondMomentAndRecallsStill) {
   for (const int frame : {26, 36, 42}) {
     SetTo(Phase(frame), Eigen::Vector3d::Zero(), &map);
     const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
-    // Moments stand twice as far apart.
+    // The stored moments are twice as far apart.
     EXPECT_LT((recalled[kNodes - 1] - Breath(kNodes - 1, Phase(frame))).norm(), 0.1) << frame;
   }
 }
 
-// Where each node went at its own time, whatever was kept of its neighbours.
+// Each node is recalled from its own moments, whatever was stored of its neighbours.
 TEST(TissueMemory, TellsNodesApartThatAreSeenInTurn) {
   DeformableMap map = Row();
   TissueMemory memory({});
   for (int frame = 0; frame < 6; ++frame) {
     SetTo(0.2 * frame, Eigen::Vector3d::Zero(), &map);
     NodeSet observed;
-    // Not by number.
+    // Not in ascending order.
     for (int j = kNodes - 1; j >= 40; --j) {
       if (j % 3 == frame % 3) observed.Add(j);
     }
     memory.Keep(observed, map);
   }
-  // None of those that were kept: the mean.
+  // No stored moment is similar, so the result is the mean.
   const std::vector<Eigen::Vector3d> recalled = Recall(40, &memory, &map);
   for (int j = 40; j < kNodes; ++j) {
     const Eigen::Vector3d mean = 0.5 * (Breath(j, 0.2 * (j % 3)) + Breath(j, 0.2 * (j % 3 + 3)));
@@ -167,14 +167,14 @@ TEST(TissueMemory, AffectsTheHiddenNodesOfMomentsThatShareNodesWithTheView) {
   keep(35, 45);
   keep(38, 42);
   keep(30, 37);
-  // Shares none.
+  // This moment has no node in common with the present.
   keep(50, 55);
   memory.BeginFrame(First(40), &map);
   memory.Look(First(40), map);
   EXPECT_EQ(memory.Affected(), (std::vector<int>{40, 41, 42, 43, 44}));
 }
 
-// Steps are shares of the box that a moment's nodes span.
+// The steps are fractions of the box that the nodes of a moment span.
 TEST(TissueMemory, KeepsTranslationsToAShareOfTheirSpread) {
   DeformableMap map = Row();
   TissueMemory memory({});
@@ -201,7 +201,7 @@ TEST(TissueMemory, HoldsSixBytesANodeOfAMoment) {
   options.max_moments = 1000;
   TissueMemory memory(options);
   for (int frame = 0; frame < 500; ++frame) memory.Keep(First(kNodes), map);
-  // And what a moment needs for itself.
+  // The memory that a moment needs in addition.
   EXPECT_LT(memory.HeapBytes(), 500u * (6 * kNodes + 400) + 2000);
   EXPECT_GT(memory.HeapBytes(), 500u * 6 * kNodes);
 }

@@ -25,7 +25,7 @@ FrameStatus Process(const DepthImage& depth, int number, DeformableSlam* slam) {
   return slam->Process(frame).status;
 }
 
-// Of the sheet in frame 0.
+// Returns a point of the sheet in frame 0.
 Eigen::Vector3d PointAt(const BumpyScene& scene, double u, double v) {
   return BumpyCamera().BackProject(u, v, scene.Depth(u, v, 0));
 }
@@ -58,17 +58,17 @@ TEST(TrackedPoints, FollowTheTissuePastACameraThatMoves) {
     ASSERT_EQ(Process(scene.RenderDepth(frame), frame, slam.get()), FrameStatus::kTracked);
   }
   const std::vector<TrackedPlace> places = tracked->Locate(*slam, BumpyCamera());
-  // The camera went 6 mm along x; a pixel is 1.1 mm wide out there.
+  // The camera moved by 6 mm along x; a pixel is 1.1 mm wide at this distance.
   for (int i = 0; i < 2; ++i) {
     const Eigen::Vector3d truth = named[i].position - scene.CameraPosition(6);
     EXPECT_LT((places[i].in_camera - truth).norm(), 0.6e-3) << i;
   }
   EXPECT_TRUE(places[0].visible);
-  // 0.09 m * 3 pixels / 90 = 3 mm from the edge: gone.
+  // The point was 0.09 m * 3 pixels / 90 = 3 mm from the edge, so it is now outside.
   EXPECT_FALSE(places[1].visible);
 }
 
-// A plate over the left half of the picture, in front of the sheet.
+// A plate covers the left half of the picture, in front of the sheet.
 TEST(TrackedPoints, AreNotVisibleBehindTheMap) {
   const BumpyScene sheet;
   DepthImage depth = sheet.RenderDepth(0);
@@ -78,7 +78,7 @@ TEST(TrackedPoints, AreNotVisibleBehindTheMap) {
   const std::unique_ptr<DeformableSlam> slam = MakeBumpySlam();
   ASSERT_EQ(Process(depth, 0, slam.get()), FrameStatus::kInitialized);
   TrackedPointsOptions options;
-  // The hidden one is 40 mm behind the plate.
+  // The hidden point is 40 mm behind the plate.
   options.max_distance = 0.05 / slam->unit();
   const std::vector<NamedPoint> named = {{0, PointAt(sheet, 20, 35)}, {1, PointAt(sheet, 75, 35)}};
   const auto tracked = TrackedPoints::Bind(named, *slam, BumpyCamera(), options);

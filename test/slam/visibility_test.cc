@@ -14,7 +14,7 @@ namespace {
 
 const Eigen::Vector3d kTowardCamera(0.0, 0.0, -1.0);
 
-// A point carried by one node.
+// Adds a point that is bound to one node.
 int AddPoint(const Eigen::Vector3d& at_rest,
              const Eigen::Vector3d& normal,
              int node,
@@ -26,7 +26,7 @@ int AddPoint(const Eigen::Vector3d& at_rest,
   return map->AddPoint(point, {&node, &weight, 1});
 }
 
-// A square of points 0.15 apart that face along `normal`, carried by a node at its middle.
+// Adds a square of points 0.15 apart that face along `normal`, bound to a node at its middle.
 std::vector<int> AddSquare(const Eigen::Vector3d& center,
                            double side,
                            const Eigen::Vector3d& normal,
@@ -60,8 +60,9 @@ TEST(FindVisible, HidesWhatIsBehindAWall) {
   const std::vector<int> wall = AddSquare({0.0, 0.0, 4.0}, 1.2, kTowardCamera, &map);
   const std::set<int> visible = VisibleSlots(map);
   for (const int slot : wall) EXPECT_EQ(visible.count(slot), 1u);
-  // The wall's shadow at z = 6 is 0.9 wide to each side. A cell of the z-buffer is 0.3 at the
-  // scene's middle depth, 6: that much of the shadow's rim may be seen or hidden.
+  // The shadow of the wall at z = 6 is 0.9 wide to each side. A cell of the z-buffer is 0.3 wide at
+  // the median depth of the scene, 6; within this distance of the shadow's rim a point may be
+  // visible or hidden.
   int hidden = 0;
   for (const int slot : back) {
     const Eigen::Vector3d x = map.point(slot).position;
@@ -99,7 +100,7 @@ TEST(FindVisible, LeavesOutWhatLooksAway) {
   facing(-85.1);
   facing(180.0);
   EXPECT_EQ(VisibleSlots(map), (std::set<int>{straight, grazing}));
-  // Seen from behind the other one is in view.
+  // Seen from behind, the other side is in view.
   const CameraPose behind = Motion(M_PI, Eigen::Vector3d::UnitY(), {0.0, 0.0, 8.0});
   EXPECT_EQ(VisibleSlots(map, behind).size(), 1u);
 }
@@ -125,7 +126,7 @@ TEST(FindVisible, LeavesOutWhatIsBesideThePictureOrBehindTheCamera) {
   EXPECT_EQ(VisibleSlots(map), inside);
 }
 
-// A surface doesn't hide itself, however steep it is seen.
+// A surface does not hide itself, however steep it is seen.
 TEST(FindVisible, SeesAllOfASteepPlane) {
   for (const double slope : {50.0, 65.0, 74.0}) {
     const PlaneScene plane = TiltedPlane(6.0, slope, 0.0);
@@ -144,7 +145,7 @@ TEST(FindVisible, SeesAllOfASteepPlane) {
   }
 }
 
-// Nodes all about the camera, near and far, each with points as far from it as its reach.
+// Nodes on all sides of the camera, near and far, each with points as far from it as its reach.
 TEST(FindVisible, LosesNoPointByCullingNodes) {
   const PinholeCamera wide = {70.0, 70.0, 79.5, 59.5, 160, 120};
   const CameraPose camera_from_map = Motion(0.7, {1.0, 2.0, -1.0}, {0.5, -0.3, 1.0});
@@ -198,7 +199,7 @@ TEST(UpdateVisible, FollowsNodesAndCamera) {
   AddSquare({0.0, 0.0, 4.0}, 1.2, kTowardCamera, &map);
   std::vector<VisiblePoint> points = FindVisible(map, {}, SmallCamera(), {});
   ASSERT_EQ(points.size(), 81u);
-  // x -> B (x - g) + g + t of the one node.
+  // The warp x -> B (x - g) + g + t of the single node.
   const Eigen::Matrix3d B =
       Eigen::AngleAxisd(0.4, Eigen::Vector3d(1.0, 1.0, 0.0).normalized()).toRotationMatrix();
   const Eigen::Vector3d t(0.2, -0.1, 0.5);

@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// A slope with a jump, rough, with holes and what is no depth.
+// Returns a rough slope with a jump, with holes and with values that are not depths.
 DepthImage RoughDepth(int width, int height) {
   std::mt19937 random(11);
   std::uniform_real_distribution<float> noise(-0.004F, 0.004F);
@@ -27,7 +27,7 @@ DepthImage RoughDepth(int width, int height) {
   return depth;
 }
 
-// Pixel by pixel.
+// The sums, computed pixel by pixel.
 struct Sums {
   double n = 0, u = 0, v = 0, uu = 0, uv = 0, vv = 0, q = 0, uq = 0, vq = 0, qq = 0;
 };
@@ -63,7 +63,7 @@ void ExpectPlainSums(const DepthImage& depth, const WindowOptions& options) {
                                   << ", width " << depth.width());
   WindowSummer summer(depth, options);
   ASSERT_EQ(summer.count(), (depth.width() + options.cell - 1) / options.cell);
-  // In order, and from the start again.
+  // In ascending order, and then from the start again.
   for (const int v0 : {0, 1, 2, 5, 9, depth.height() / 2, depth.height() - 1, 4}) {
     const WindowSums& sums = summer.SumRow(v0);
     for (int i = 0; i < summer.count(); ++i) {

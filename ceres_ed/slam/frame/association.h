@@ -1,4 +1,5 @@
-// Back-projection: which patch of the depth image a map point belongs to, without any search.
+// Finds the patch of the depth image to which a map point belongs by projecting the point into the
+// image, without a search.
 #ifndef CERES_ED_SLAM_FRAME_ASSOCIATION_H_
 #define CERES_ED_SLAM_FRAME_ASSOCIATION_H_
 
@@ -11,37 +12,39 @@
 
 namespace ceres_ed {
 
-// A visible point and the patch behind its pixel.
+// A visible point and the patch at its pixel.
 struct Association {
   // Index into the visible points.
   int visible = -1;
   const SurfacePatch* patch = nullptr;
-  // Signed distance of the point to the patch's plane, map units; positive toward the camera.
+  // The signed distance of the point to the plane of the patch, in map units, positive toward the
+  // camera.
   double distance = 0.0;
-  // In (0, 1]: grazing patches are less certain.
+  // The weight in (0, 1]; patches seen at a grazing angle are less certain.
   double weight = 1.0;
 };
 
+// Options of Associate().
 struct AssociationOptions {
-  // Farthest distance to the plane, map units, > 0.
+  // The largest distance to the plane, in map units, > 0; default 1.
   double max_distance = 1.0;
-  // Largest angle between the normals, degrees, (0, 180].
+  // The largest angle between the normals, in degrees, (0, 180]; default 60.
   double max_angle_deg = 60.0;
 };
 
-// What looking up all visible points gave.
+// The associations of all visible points.
 struct AssociationResult {
   std::vector<Association> matches;
-  // Indices of visible points with a patch well behind them, camera and patch on one ray: the
-  // camera sees through them.
+  // Indices of visible points whose patch is far behind them on the same ray: the camera sees
+  // through them.
   std::vector<int> seen_through;
-  // Visible points with any patch at their pixel.
+  // The number of visible points with a patch at their pixel.
   int measured = 0;
   // The RobustDeviation() of the matches' distances.
   double deviation = 0.0;
 };
 
-// Associates by the pixels in `points`.
+// Associates the points with the patches at their pixels.
 AssociationResult Associate(const std::vector<VisiblePoint>& points,
                             const CameraPose& camera_from_map,
                             const ObservedSurface& surface,

@@ -14,12 +14,12 @@ namespace {
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-// Where Tukey's weight ends, in deviations.
+// The residual at which Tukey's weight becomes zero, in deviations.
 constexpr double kTukeyWidth = 4.685;
 constexpr double kInlierWidth = 3.0;
 constexpr double kLeastDeviation = 1e-6;
 constexpr std::size_t kFewestMatches = 6;
-// A step smaller than this ends the search, map units.
+// A step smaller than this ends the search, in map units.
 constexpr double kSmallStep = 1e-4;
 
 double TukeyWeight(double residual, double deviation) {
@@ -28,7 +28,7 @@ double TukeyWeight(double residual, double deviation) {
   return inside > 0.0 ? inside * inside : 0.0;
 }
 
-// x' = x + omega x (x - center) + tau.
+// Returns the pose that maps to x' = x + omega x (x - center) + tau.
 CameraPose Moved(const CameraPose& pose, const Vector6d& step, const Eigen::Vector3d& center) {
   const Eigen::Vector3d omega = step.head<3>();
   const double angle = omega.norm();
@@ -51,8 +51,8 @@ void MoveTo(const CameraPose& pose,
   }
 }
 
-// Normal equations of one step: turns about the scene's middle, in units of its radius, so that all
-// six unknowns are lengths.
+// The normal equations of one step. Rotations are about the centre of the scene and in units of its
+// radius, so that all six unknowns are lengths.
 class StepEquations {
  public:
   explicit StepEquations(const std::vector<Association>& matches) {
@@ -62,7 +62,7 @@ class StepEquations {
     radius_ = std::sqrt(radius_ / static_cast<double>(matches.size())) + 1e-9;
   }
 
-  // The distance of `point` along a direction.
+  // Adds the distance of `point` along a direction.
   void Add(const Eigen::Vector3d& point,
            const Eigen::Vector3d& direction,
            double residual,
@@ -74,7 +74,8 @@ class StepEquations {
     weight_ += weight;
   }
 
-  // Moves `pose` by the step and returns its size, map units; negative when there is none.
+  // Moves `pose` by the step and returns the size of the step in map units; negative if there is
+  // none.
   double Solve(double damping, CameraPose* pose) const {
     Matrix6d damped = hessian_;
     damped.diagonal().array() += damping * weight_;
@@ -94,7 +95,7 @@ class StepEquations {
   Vector6d gradient_ = Vector6d::Zero();
 };
 
-// Every so many points that `max_points` are left.
+// Returns every n-th point, so that about `max_points` are left.
 std::vector<VisiblePoint> Thinned(const std::vector<VisiblePoint>& all, int max_points) {
   std::vector<VisiblePoint> points;
   const std::size_t stride = std::max<std::size_t>(1, all.size() / max_points);
@@ -160,7 +161,7 @@ CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
     AddPointMatches(matches, pose, deviation, options.match_weight, &equations);
     const double step = equations.Solve(options.damping, &pose);
     if (step < 0.0) return result;
-    // What has come to rest is looked at once more.
+    // After a small step the points are associated once more.
     if (step < kSmallStep) iteration = options.max_iterations - 1;
   }
 }

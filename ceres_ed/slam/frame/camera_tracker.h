@@ -1,4 +1,5 @@
-// The camera by itself: rigid alignment of the map, as it is deformed now, to the depth image.
+// Tracks the camera alone, by rigid alignment of the map in its present deformation with the depth
+// image.
 #ifndef CERES_ED_SLAM_FRAME_CAMERA_TRACKER_H_
 #define CERES_ED_SLAM_FRAME_CAMERA_TRACKER_H_
 
@@ -13,34 +14,43 @@
 
 namespace ceres_ed {
 
-// A point of the map (map frame, as deformed now) seen at a place (camera frame).
+// A point of the map in its present deformation (map frame), and the position at which it was seen
+// (camera frame).
 struct PointMatch {
   Eigen::Vector3d in_map = Eigen::Vector3d::Zero();
   Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();
 };
 
+// Options of TrackCamera().
 struct CameraTrackerOptions {
+  // The largest number of steps; default 10.
   int max_iterations = 10;
-  // Points of the map that are used; evenly chosen among more, >= 6.
+  // The largest number of map points that are used, >= 6; if there are more, they are chosen
+  // evenly. Default 3000.
   int max_points = 3000;
+  // The options of the association in each step.
   AssociationOptions association;
-  // Weight of one point match against one point-to-plane match, >= 0.
+  // The weight of a point match relative to a point-to-plane match, >= 0; default 4.
   double match_weight = 4.0;
-  // Of each step, relative to the data: leaves alone what they leave open, >= 0.
+  // The damping of each step, relative to the data, >= 0; default 1e-3. Directions that the data do
+  // not determine do not change.
   double damping = 1e-3;
 };
 
+// The pose found by TrackCamera(), and how well the points agree with it.
 struct CameraTrackerResult {
   CameraPose camera_from_map;
-  // The points with a patch at their pixel, and those of them within three deviations of it.
+  // The number of points with a patch at their pixel, and the number of those within three
+  // deviations of the patch.
   int measured = 0;
   int inliers = 0;
-  // Spread of the distances to the planes, map units.
+  // The spread of the distances to the planes, in map units.
   double deviation = 0.0;
 };
 
-// Returns the pose that brings `points` onto the surface: Gauss-Newton on robust (Tukey)
-// point-to-plane distances, associated anew at each step, and on the distances of the matches.
+// Returns the pose that moves `points` onto the surface. It uses the Gauss-Newton method on robust
+// (Tukey) point-to-plane distances, which are associated again in each step, and on the distances
+// of `matches`.
 CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& points,
                                 const std::vector<PointMatch>& matches,
                                 const ObservedSurface& surface,

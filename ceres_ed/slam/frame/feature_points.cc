@@ -10,10 +10,11 @@
 namespace ceres_ed {
 namespace {
 
-// Corners are looked for again when fewer than this share of those wanted are left.
+// New corners are searched when fewer than this share of the wanted number is left.
 constexpr double kReplenishBelow = 0.8;
 
-// Where the ray of a pixel meets its patch's plane; false where there is none.
+// Computes where the ray of a pixel intersects the plane of its patch. Returns false if there is no
+// patch.
 bool OnSurface(const ObservedSurface& surface,
                const Eigen::Vector2d& pixel,
                Eigen::Vector3d* point) {
@@ -26,7 +27,7 @@ bool OnSurface(const ObservedSurface& surface,
   return true;
 }
 
-// The pixels that have a patch.
+// Returns the pixels that have a patch.
 MaskImage Measured(const ObservedSurface& surface) {
   MaskImage measured(surface.camera().width, surface.camera().height, 0);
   for (int v = 0; v < measured.height(); ++v) {

@@ -1,4 +1,5 @@
-// Corners of the picture that are held to the tissue: what follows it where it slides along itself.
+// Corners of the picture that are attached to the tissue. They follow tissue that slides along
+// itself.
 #ifndef CERES_ED_SLAM_FRAME_FEATURE_POINTS_H_
 #define CERES_ED_SLAM_FRAME_FEATURE_POINTS_H_
 
@@ -17,43 +18,44 @@
 
 namespace ceres_ed {
 
-// Corners that are being followed, each with a place on the map at rest.
+// Corners that are tracked, each with a position on the map at rest.
 class FeaturePoints {
  public:
   explicit FeaturePoints(const FeatureOptions& options)
       : options_(options), tracker_(options.pixels) {}
 
-  // Follows the corners into `image`; those that are lost, or that land where `surface` has
-  // nothing, are gone. `camera_from_map`: the predicted camera.
+  // Tracks the corners into `image`. Corners that are lost, or for which `surface` has no patch,
+  // are removed. `camera_from_map` is the predicted camera.
   void Track(ColorView image,
              const ObservedSurface& surface,
              const DeformableMap& map,
              const CameraPose& camera_from_map);
 
-  // The corners in sight as point matches for the camera.
+  // Returns the tracked corners as point matches for the camera.
   std::vector<PointMatch> Matches(const DeformableMap& map) const;
-  // And as observations of a frame. Bindings stay valid until the next call that isn't const.
+  // Returns the tracked corners as observations of a frame. Their bindings are valid until the next
+  // call of a non-const function.
   std::vector<MapObservation> Observations() const;
 
-  // Drops corners whose place on the solved map is too far from where they were seen. Returns the
-  // spread of what is left.
+  // Removes corners whose position on the solved map is too far from where they were seen. Returns
+  // the spread of the distances.
   double DropOutliers(const DeformableMap& map, double least_deviation);
 
-  // Finds new corners of the present picture and binds them to the map.
+  // Finds new corners in the present picture and binds them to the map.
   void Replenish(const ObservedSurface& surface, const DeformableMap& map);
 
-  // Drops all corners: the camera has jumped.
+  // Removes all corners, for use when the camera has jumped.
   void Clear() { features_.clear(); }
 
   int size() const { return static_cast<int>(features_.size()); }
 
-  // Saves corners and picture, or loads them in the place of what is there.
+  // Saves the corners and the picture, or loads them and replaces the present ones.
   void Exchange(CheckpointArchive* archive);
 
  private:
   struct Feature {
     Eigen::Vector2d pixel;
-    // On the observed surface.
+    // The position on the observed surface, in the camera frame.
     Eigen::Vector3d in_camera;
     Eigen::Vector3d at_rest;
     int nodes[kMaxBoundNodes];

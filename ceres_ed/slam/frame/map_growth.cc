@@ -11,7 +11,7 @@
 namespace ceres_ed {
 namespace {
 
-// Edges don't span more than this, unless a node would have none.
+// Longer edges are not added, unless a node would have fewer than kFewestEdges.
 constexpr double kLongestEdge = 2.5;
 constexpr int kFewestEdges = 3;
 
@@ -23,7 +23,7 @@ struct Candidate {
   std::array<std::uint8_t, 3> color;
 };
 
-// Marks discs of pixels, in cells of the observed surface.
+// Marks discs of pixels as covered, in cells of the observed surface.
 class Coverage {
  public:
   Coverage(const ObservedSurface& surface, double spacing)
@@ -91,8 +91,9 @@ void AddNodeAt(const Eigen::Vector3d& place,
   std::vector<int> partners;
   if (!binder->empty()) {
     partners = binder->Nearest(place, options.edges_per_node);
-    // Born unstrained: a strain that new tissue took over from its neighbours would be its rest
-    // shape, and grow from node to node as the map does.
+    // The node starts without strain. If new tissue inherited the strain of its neighbours, this
+    // strain would become part of its rest shape and would accumulate from node to node as the map
+    // grows.
     warp = map->RigidWarpOf(binder->Bind(place, map->neighbors()));
   }
   const int node = map->AddNode(warp.AtRest(place), place, warp.gradient);
@@ -104,8 +105,8 @@ void AddNodeAt(const Eigen::Vector3d& place,
   binder->AddNode(*map, node);
 }
 
-// Binds the point at `place` and sets its rest position so that it is there now. False where the
-// nodes' maps can't be inverted.
+// Binds the point at `place` and sets its rest position so that it is there now. Returns false if
+// the warp of the nodes cannot be inverted.
 bool PlacePoint(const DeformableMap& map,
                 const Binding& binding,
                 const Eigen::Vector3d& place,
@@ -114,12 +115,13 @@ bool PlacePoint(const DeformableMap& map,
   const LocalWarp warp = map.WarpOf(binding);
   if (!warp.IsInvertible()) return false;
   point->position = warp.AtRest(place);
-  // Normals turn by the cofactors of the gradient, G^-T up to length; back by G^T.
+  // Normals are transformed by the cofactors of the gradient G, which is G^-T up to length; the
+  // inverse is G^T.
   point->normal = (warp.gradient.transpose() * normal).normalized();
   return true;
 }
 
-// Points near a new node were bound to what was there before it.
+// Binds points near new nodes again, because they were bound before the new nodes existed.
 void RebindNear(int first_new_node,
                 const std::vector<VisiblePoint>& visible,
                 PlaceBinder* binder,
@@ -170,7 +172,7 @@ std::vector<int> PlaceBinder::Nearest(const Eigen::Vector3d& place, int count) c
 }
 
 Binding PlaceBinder::Bind(const Eigen::Vector3d& place, int neighbors) {
-  // Insertion into a short list: the hot loop of growing.
+  // Insertion into a short sorted list; this is the innermost loop of the map growth.
   double squared[kMaxBoundNodes + 1];
   int index[kMaxBoundNodes + 1];
   int count = 0;
@@ -208,6 +210,7 @@ MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
   if (candidates.empty()) return result;
   PlaceBinder binder(*map, camera_from_map, surface.camera());
   const int first_new_node = map->graph().num_nodes();
+  // First nodes are added where no node is near enough, then the points are bound to the nodes.
   for (const Candidate& candidate : candidates) {
     if (binder.DistanceTo(candidate.in_map) <= options.node_coverage) continue;
     AddNodeAt(candidate.in_map, options, &binder, map);

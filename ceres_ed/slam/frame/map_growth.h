@@ -1,4 +1,5 @@
-// New points where the camera sees what the map lacks, and new nodes where coverage ends.
+// Adds new points where the camera sees something that the map lacks, and new nodes where the
+// coverage by nodes ends.
 #ifndef CERES_ED_SLAM_FRAME_MAP_GROWTH_H_
 #define CERES_ED_SLAM_FRAME_MAP_GROWTH_H_
 
@@ -14,15 +15,16 @@
 
 namespace ceres_ed {
 
+// The numbers of points and nodes that GrowMap() added.
 struct MapGrowthResult {
   int new_points = 0;
   int new_nodes = 0;
 };
 
-// Binds places on the map, as it is deformed now, to the nodes nearest to them (Eq. 2).
+// Binds positions on the map, in its present deformation, to the nearest nodes (Eq. 2).
 class PlaceBinder {
  public:
-  // Knows the nodes near the view.
+  // Uses the nodes near the view.
   PlaceBinder(const DeformableMap& map,
               const CameraPose& camera_from_map,
               const PinholeCamera& camera);
@@ -30,22 +32,23 @@ class PlaceBinder {
   // Adds a node that is new in the map.
   void AddNode(const DeformableMap& map, int node);
   bool empty() const { return nodes_.empty(); }
-  // Distance to the nearest node; infinite when there is none.
+  // Returns the distance to the nearest node, or infinity if there are no nodes.
   double DistanceTo(const Eigen::Vector3d& place) const;
-  // The `count` nearest nodes, nearest first.
+  // Returns the `count` nearest nodes, nearest first.
   std::vector<int> Nearest(const Eigen::Vector3d& place, int count) const;
-  // A binding of `neighbors` nodes; valid until the next call. Needs one node at least.
+  // Returns a binding to `neighbors` nodes, which is valid until the next call. At least one node
+  // is required.
   Binding Bind(const Eigen::Vector3d& place, int neighbors);
 
  private:
   std::vector<int> nodes_;
   std::vector<Eigen::Vector3d> positions_;
-  // For Bind().
+  // The memory of the result of Bind().
   int bound_nodes_[kMaxBoundNodes];
   double weights_[kMaxBoundNodes];
 };
 
-// Adds to the map what `surface` shows and `visible` points don't cover.
+// Adds to the map the parts of `surface` that no `visible` point covers.
 MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
                         const ObservedSurface& surface,
                         ColorView color,

@@ -1,4 +1,4 @@
-// What a frame tells of the map.
+// The observations of the map in one frame.
 #ifndef CERES_ED_SLAM_FRAME_OBSERVATIONS_H_
 #define CERES_ED_SLAM_FRAME_OBSERVATIONS_H_
 
@@ -11,30 +11,31 @@
 
 namespace ceres_ed {
 
-// A point of the map, or between its points, and where it was seen.
+// A point of the map, or between its points, and the position at which it was seen.
 struct MapObservation {
-  // At rest.
+  // The position at rest.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
   PointBinding binding;
-  // Camera frame, map units.
+  // The observed position, in the camera frame and in map units.
   Eigen::Vector3d target = Eigen::Vector3d::Zero();
-  // Of the observed surface, camera frame, unit length.
+  // The normal of the observed surface, in the camera frame, of unit length.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   double weight = 1.0;
-  // Of the map, as it is warped now, camera frame, unit length; zero where nobody asks for it.
+  // The normal of the map in its present deformation, in the camera frame, of unit length; zero if
+  // it is not needed.
   Eigen::Vector3d source_normal = Eigen::Vector3d::Zero();
 };
 
-// What a frame has to say of the map.
+// All observations of one frame.
 struct FrameObservations {
-  // Against tangent planes.
+  // Observations against tangent planes.
   std::vector<MapObservation> planes;
-  // Of a plane's distance, map units: where the loss gives way.
+  // The width of the loss on the distances to planes, in map units.
   double plane_width = 1.0;
-  // Point to point.
+  // Point-to-point observations.
   std::vector<MapObservation> features;
   double feature_width = 1.0;
-  // Where the pose prior holds the camera.
+  // The pose at which the pose prior holds the camera.
   CameraPose camera_prior;
 };
 

@@ -13,13 +13,14 @@
 namespace ceres_ed {
 namespace {
 
-// Of the pixels in a window, this share must have a depth that belongs to the surface.
+// The share of the pixels in a window that must have a depth that belongs to the surface.
 constexpr double kMinCoverage = 0.4;
 
-// Patches whose deviations tell the noise: neighbours have most of their pixels in common.
+// The number of patches from which the noise is computed. All patches are not needed, because
+// neighbours have most of their pixels in common.
 constexpr int kNoiseSamples = 20000;
 
-// Of every `step`-th valid patch; 0 without any.
+// Returns the median deviation of every `step`-th valid patch; 0 if there is none.
 double MedianOfDeviations(const std::vector<SurfacePatch>& patches, int step) {
   std::vector<double> deviations;
   deviations.reserve(patches.size() / step + 1);
@@ -32,7 +33,7 @@ double MedianOfDeviations(const std::vector<SurfacePatch>& patches, int step) {
   return Median(std::move(deviations));
 }
 
-// Makes patches of sums over windows.
+// Fits patches to sums over windows.
 class PatchFitter {
  public:
   PatchFitter(DepthView depth,
@@ -48,7 +49,7 @@ class PatchFitter {
     min_count_ = kMinCoverage * side * side;
   }
 
-  // Writes the patches of a row of cells, the middle of which is at v0.
+  // Writes the patches of a row of cells whose middle is at row v0.
   void FitRow(int v0, SurfacePatch* patches) {
     const WindowSums& sums = windows_.SumRow(v0);
     for (int i = 0; i < windows_.count(); ++i) {
@@ -60,7 +61,8 @@ class PatchFitter {
   }
 
  private:
-  // Least squares: q = a du + b dv + c. False where the pixels don't tell.
+  // Solves the least-squares fit q = a du + b dv + c. Returns false if the pixels do not determine
+  // it.
   bool SolvePlane(const WindowSums& s, int i, Eigen::Vector3d* abc) const {
     if (windows_.IsFull(i)) {
       *abc = {s.uq[i] / windows_.full_square(),
@@ -87,14 +89,16 @@ class PatchFitter {
     const double z0 = static_cast<double>(depth_(u0, v0)) * scale_;
     const double squares =
         std::max(0.0, s.qq[i] - abc.dot(Eigen::Vector3d(s.uq[i], s.vq[i], s.q[i])));
-    // 1 = (a fx) X + (b fy) Y + (c + a (cx - u0) + b (cy - v0)) Z, lengths in z0.
+    // The plane is 1 = (a fx) X + (b fy) Y + (c + a (cx - u0) + b (cy - v0)) Z, with lengths in
+    // units of z0.
     const Eigen::Vector3d plane(
         abc.x() * camera_.fx,
         abc.y() * camera_.fy,
         abc.z() + abc.x() * (camera_.cx - u0) + abc.y() * (camera_.cy - v0));
     patch->point = camera_.BackProject(u0, v0, z0 / abc.z());
     patch->normal = -plane.normalized();
-    // The spread of z0 / z is that of z / z0 to first order; three degrees of freedom are gone.
+    // To first order the spread of z0 / z equals that of z / z0; the fit takes three degrees of
+    // freedom.
     patch->deviation = std::sqrt(squares / (s.n[i] - 3.0)) * z0;
   }
 
@@ -124,7 +128,7 @@ ObservedSurface::ObservedSurface(DepthView depth,
   ParallelFor(options.num_threads, patches_.height(), [&](int begin, int end) {
     PatchFitter fitter(depth, camera, scale, windows);
     for (int j = begin; j < end; ++j) {
-      // The middle of the cell; the last ones may be cut off.
+      // The middle of the cell; the last cells may be cut off.
       const int v0 = std::min(j * cell_ + cell_ / 2, depth.height() - 1);
       fitter.FitRow(v0, &patches_(0, j));
     }

@@ -14,22 +14,22 @@
 
 namespace ceres_ed {
 
-// The tangent plane of the surface at one pixel, camera frame.
+// The tangent plane of the surface at one pixel, in the camera frame.
 struct SurfacePatch {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
-  // Unit length, toward the camera; zero where nothing was measured.
+  // The normal, of unit length and toward the camera; zero if nothing was measured.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  // Spread of the measured depths about the plane, along the optical axis.
+  // The spread of the measured depths about the plane, along the optical axis.
   double deviation = 0.0;
 
   bool valid() const { return !normal.isZero(); }
 };
 
-// Patches at every `cell` pixels. A plane has an inverse depth that is affine in the pixel, so that
-// the fit is linear: 1/z = a u + b v + c.
+// Patches at every `cell` pixels. The inverse depth of a plane is an affine function of the pixel,
+// so that the fit is linear: 1/z = a u + b v + c.
 class ObservedSurface {
  public:
-  // Lengths are those of `depth` times `scale` (map units a metre).
+  // Lengths are those of `depth` multiplied by `scale` (map units per metre).
   ObservedSurface(DepthView depth,
                   const PinholeCamera& camera,
                   double scale,
@@ -39,15 +39,17 @@ class ObservedSurface {
   int height() const { return patches_.height(); }
   int cell() const { return cell_; }
   const PinholeCamera& camera() const { return camera_; }
-  // Valid patches.
+  // Returns the number of valid patches.
   int num_valid() const { return num_valid_; }
-  // Median of the patches' deviation: the noise of a pixel, along the optical axis. 0 without any.
+  // Returns the median of the patches' deviations, which is the noise of a pixel along the optical
+  // axis; 0 if there are no patches.
   double noise() const { return noise_; }
 
   const SurfacePatch& patch(int i, int j) const { return patches_(i, j); }
-  // The patch nearest to a pixel; null where there is none or the pixel is outside.
+  // Returns the patch nearest to a pixel, or null if there is none or the pixel is outside the
+  // picture.
   const SurfacePatch* Find(const Eigen::Vector2d& pixel) const {
-    // Before the cast, which has no meaning for numbers that no int holds.
+    // This test precedes the cast, which is undefined for values outside the range of int.
     if (!(pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera_.width - 0.5 &&
           pixel.y() < camera_.height - 0.5)) {
       return nullptr;

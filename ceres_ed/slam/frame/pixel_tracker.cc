@@ -26,9 +26,10 @@ std::vector<cv::Point2f> ToCv(const std::vector<Eigen::Vector2d>& pixels) {
   return points;
 }
 
-// The picture without its light: lamps move with the camera, and a gradient that stands still in
-// the picture pulls corners along. The logarithm turns light into an offset, which a high pass
-// takes out; what is left is brought to one contrast everywhere.
+// Returns the picture without the illumination. Lamps move with the camera, and a brightness
+// gradient that is fixed in the picture would hold corners back. The logarithm turns illumination
+// into an offset, which a high-pass filter removes; the remaining image is scaled to the same
+// contrast everywhere.
 cv::Mat Flatten(const cv::Mat& rgb, double radius) {
   constexpr double kLeastContrast = 0.03;
   constexpr double kGain = 40.0;
@@ -53,15 +54,15 @@ struct PixelTracker::Impl {
   Pyramid before;
   Pyramid now;
 
-  // Makes the pyramid of `gray`.
+  // Builds the pyramid of `gray`.
   void BuildPyramid() {
     now.clear();
     cv::buildOpticalFlowPyramid(
         gray, now, cv::Size(options.window, options.window), options.pyramid_levels);
   }
 
-  // Corners know nothing of one another, so that parts of them go the same ways. `end` and `found`
-  // have the size of `start`.
+  // Corners are tracked independently, so parts of them run in parallel. `end` and `found` have the
+  // size of `start`.
   void Flow(const Pyramid& from,
             const Pyramid& to,
             const std::vector<cv::Point2f>& start,
@@ -71,7 +72,8 @@ struct PixelTracker::Impl {
     const auto count = static_cast<int>(start.size());
     ParallelFor(options.num_threads, count, [&](int first, int last) {
       const cv::Range part(first, last);
-      // Views of the vectors' own memory: their sizes are right, so that nothing is allocated.
+      // These are views of the vectors' own memory; because their sizes are correct, OpenCV
+      // allocates nothing.
       cv::Mat part_end = cv::Mat(*end).rowRange(part);
       cv::Mat part_found = cv::Mat(*found).rowRange(part);
       cv::calcOpticalFlowPyrLK(from,
@@ -90,14 +92,14 @@ struct PixelTracker::Impl {
 
 PixelTracker::PixelTracker(const PixelTrackerOptions& options) : impl_(new Impl) {
   impl_->options = options;
-  // One thread: the same bytes whatever the machine.
+  // OpenCV uses one thread, so that the results have the same bytes on any machine.
   cv::setNumThreads(1);
 }
 
 PixelTracker::~PixelTracker() = default;
 
 void PixelTracker::SetImage(ColorView image) {
-  // OpenCV only reads.
+  // OpenCV only reads this image.
   const cv::Mat rgb(image.height(),
                     image.width(),
                     CV_8UC3,
@@ -117,7 +119,8 @@ std::vector<TrackedPixel> PixelTracker::Track(const std::vector<Eigen::Vector2d>
   std::vector<cv::Point2f> back;
   std::vector<unsigned char> found(start.size()), found_back(start.size());
   impl_->Flow(impl_->before, impl_->now, start, &end, &found);
-  // The way back is guessed by the same prediction, so that both ways have equally far to search.
+  // The search backward starts from the same prediction, so that both directions have equally far
+  // to search.
   back.reserve(end.size());
   const std::vector<cv::Point2f> guess = ToCv(predicted);
   for (std::size_t i = 0; i < end.size(); ++i) back.push_back(end[i] - (guess[i] - start[i]));
@@ -160,7 +163,7 @@ void PixelTracker::Exchange(CheckpointArchive* archive) {
   std::vector<std::uint8_t> pixels;
   if (!gray.empty()) pixels.assign(gray.begin<std::uint8_t>(), gray.end<std::uint8_t>());
   archive->Array("pixels", &pixels);
-  // All else is made of these: the picture before is not looked at again.
+  // Everything else is computed from the present picture; the previous picture is not used again.
   if (archive->saving() || height <= 0 || pixels.empty()) return;
   gray = cv::Mat(pixels, /*copyData=*/true).reshape(1, height);
   impl_->BuildPyramid();

@@ -1,4 +1,5 @@
-// Corners followed from picture to picture: pyramidal Lucas-Kanade of OpenCV, which stays inside.
+// Tracks corners from picture to picture with the pyramidal Lucas-Kanade method of OpenCV, which
+// this header hides.
 #ifndef CERES_ED_SLAM_FRAME_PIXEL_TRACKER_H_
 #define CERES_ED_SLAM_FRAME_PIXEL_TRACKER_H_
 
@@ -14,33 +15,33 @@ namespace ceres_ed {
 
 class CheckpointArchive;
 
-// Where a corner went; `found` is false where it was lost.
+// The new position of a corner; `found` is false if it was lost.
 struct TrackedPixel {
   Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
   bool found = false;
 };
 
-// Knows pixels only: the present picture and the one before it.
+// Works on pixels only. It stores the present picture and the previous one.
 class PixelTracker {
  public:
   explicit PixelTracker(const PixelTrackerOptions& options);
   ~PixelTracker();
 
-  // The present picture becomes the one before, and `image` the present one.
+  // Makes the present picture the previous one, and `image` the present one.
   void SetImage(ColorView image);
 
-  // Follows pixels of the picture before into the present one. `predicted`: where they are thought
-  // to be there.
+  // Tracks pixels of the previous picture into the present one. `predicted` contains their expected
+  // positions there.
   std::vector<TrackedPixel> Track(const std::vector<Eigen::Vector2d>& pixels,
                                   const std::vector<Eigen::Vector2d>& predicted) const;
 
-  // Returns at most `count` corners of the present picture where `allowed` (its size) is nonzero,
-  // away from those `taken`, strongest first.
+  // Returns at most `count` corners of the present picture, strongest first, where `allowed` (of
+  // the size of the picture) is non-zero, and at a distance from those `taken`.
   std::vector<Eigen::Vector2d> Detect(const MaskImage& allowed,
                                       const std::vector<Eigen::Vector2d>& taken,
                                       int count) const;
 
-  // Saves the present picture, or loads it in the place of what is there.
+  // Saves the present picture, or loads it and replaces the present one.
   void Exchange(CheckpointArchive* archive);
 
  private:

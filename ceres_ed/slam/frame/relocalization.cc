@@ -11,9 +11,9 @@
 namespace ceres_ed {
 namespace {
 
-// Points on each side that are laid on each other.
+// The number of points on each side that are used for the alignment.
 constexpr int kAlignedPoints = 4000;
-// Spread that halves a score, map units.
+// The spread that halves a score, in map units.
 constexpr double kHalvingDeviation = 0.1;
 
 PointCloud MapCloud(const DeformableMap& map) {
@@ -66,7 +66,8 @@ PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
       static_cast<double>(result.matches.size()) / static_cast<double>(visible.size());
   quality.deviation = result.deviation;
   quality.points = static_cast<int>(result.matches.size());
-  // Each point covers a square of its spacing; their sum is compared with that of the patches.
+  // Each point covers a square of its spacing; the sum of these areas is compared with that of the
+  // patches.
   double covered = 0.0;
   const double focal = surface.camera().fx * surface.camera().fy;
   const auto pixels = [focal](const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {

@@ -1,4 +1,4 @@
-// Where the camera is when it isn't where it was thought to be.
+// Judges the pose of the camera, and searches for it when the prediction was wrong.
 #ifndef CERES_ED_SLAM_FRAME_RELOCALIZATION_H_
 #define CERES_ED_SLAM_FRAME_RELOCALIZATION_H_
 
@@ -14,57 +14,63 @@ namespace ceres_ed {
 
 // How well a pose explains a frame.
 struct PoseQuality {
-  // Of the map's points that should be in view, the share that lies on the observed surface.
+  // The share of the map's points that should be in view and lie on the observed surface.
   double overlap = 0.0;
-  // Of the observed surface, the share that such points cover.
+  // The share of the observed surface that these points cover.
   double coverage = 0.0;
-  // Spread of their distances, map units.
+  // The spread of their distances, in map units.
   double deviation = 0.0;
-  // Points on the observed surface.
+  // The number of points on the observed surface.
   int points = 0;
 
-  // One number to compare poses by: both shares count, the smaller one more, and a wide spread
-  // halves it.
+  // Returns one number by which poses are compared, in which both shares count, the smaller one
+  // more; a wide spread halves it.
   double Score() const;
 };
 
+// Options of JudgePose(), and thresholds for its result.
 struct PoseQualityOptions {
-  // A point within this distance of its plane lies on the surface, map units, > 0.
+  // A point within this distance of its plane lies on the surface; map units, > 0, default 0.5.
   double max_distance = 0.5;
-  // Between points of the map, map units, > 0.
+  // The spacing of the map's points, in map units, > 0; default 0.2.
   double point_spacing = 0.2;
-  // A pose that was tracked is in doubt when less overlaps, or when points spread wider (map
-  // units).
+  // A tracked pose is in doubt if its overlap is smaller, or its spread (map units) larger.
+  // Defaults 0.7 and 0.15.
   double doubtful_overlap = 0.7;
   double doubtful_deviation = 0.15;
-  // What any pose must reach to be believed.
+  // The thresholds that any accepted pose must meet. Defaults 0.6, 0.2 and 0.25 map units.
   double min_overlap = 0.6;
   double min_coverage = 0.2;
   double max_deviation = 0.25;
 
+  // Returns whether a tracked pose is in doubt.
   bool Doubts(const PoseQuality& quality) const {
     return quality.overlap < doubtful_overlap || quality.coverage < min_coverage ||
            quality.deviation > doubtful_deviation;
   }
+  // Returns whether a pose is accepted.
   bool Believes(const PoseQuality& quality) const {
     return quality.overlap >= min_overlap && quality.coverage >= min_coverage &&
            quality.deviation <= max_deviation;
   }
 };
 
-// `visible`: the points in view from the pose, as of FindVisible().
+// Returns the quality of a pose. `visible` are the points in view from that pose, as returned by
+// FindVisible().
 PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
                       const CameraPose& camera_from_map,
                       const ObservedSurface& surface,
                       const PoseQualityOptions& options);
 
+// A pose that was found by a search, and its quality.
 struct Relocalization {
   CameraPose camera_from_map;
   PoseQuality quality;
 };
 
-// Returns the pose that explains most, looked for from scratch: the map as it is deformed now is
-// laid on the observed surface by AlignRigid(), from `last` and from many places and turns.
+// Returns the pose that explains most of the frame, from a search without prediction: AlignRigid()
+// lays the map in its present deformation onto the observed surface, starting from `last` and from
+// many positions and rotations.
 Relocalization Relocalize(const DeformableMap& map,
                           const ObservedSurface& surface,
                           const CameraPose& last,

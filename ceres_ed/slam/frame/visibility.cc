@@ -11,7 +11,7 @@
 namespace ceres_ed {
 namespace {
 
-// Where a point with z <= 0 is said to be in the picture: nowhere.
+// The pixel of a point with z <= 0, which is outside of every picture.
 const Eigen::Vector2d kNoPixel = Eigen::Vector2d::Constant(-1e9);
 
 VisiblePoint Look(const DeformableMap& map,
@@ -29,7 +29,7 @@ VisiblePoint Look(const DeformableMap& map,
   return seen;
 }
 
-// The width of all cells, pixels, from the middle of the scene.
+// Returns the width of all cells in pixels, which is chosen for the median depth of the scene.
 int CellSize(const std::vector<VisiblePoint>& points,
              const PinholeCamera& camera,
              const VisibilityOptions& options) {
@@ -61,7 +61,8 @@ bool MapOcclusion::Sees(const Eigen::Vector3d& place,
                         const Eigen::Vector2d& pixel) const {
   const double facing = -normal.dot(place);
   if (!(facing >= min_cosine_ * place.norm())) return false;
-  // What the place's own tangent plane rises across a cell: a steep surface doesn't hide itself.
+  // The rise of the place's own tangent plane across a cell is allowed in addition, so that a steep
+  // surface does not hide itself.
   const double z = place.z();
   const double rise = nearest_.cell() * z * z / facing *
                       (std::abs(normal.x()) / camera_.fx + std::abs(normal.y()) / camera_.fy);

@@ -9,26 +9,26 @@
 namespace ceres_ed {
 namespace {
 
-// Windows that are looked at together.
+// The number of windows that are processed together.
 constexpr int kChunk = 32;
 
-// A row of pixels of windows [begin, end), as the kernels see it.
+// A row of pixels of the windows [begin, end), in the form that the kernels use.
 struct PixelRow {
   int begin;
   int end;
-  // In rows from the windows' middles, and columns to either side.
+  // The row relative to the windows' middles, and the number of columns to either side.
   int dv;
   int radius;
   // Pixel (du, dv) of window i is pixels[du + radius][i].
   const double* const* pixels;
-  // z0 by window.
+  // z0 of each window.
   const double* middle;
-  // Bounds of q by column.
+  // The bounds of q for each column.
   const double* least;
   const double* most;
 };
 
-// The inverse of depths, 0 where there is none.
+// Computes the inverse of depths; 0 where there is no depth.
 CERES_ED_FOR_EACH_MACHINE
 void Invert(const float* depth, int count, double* inverse) {
   constexpr float kLargest = std::numeric_limits<float>::max();
@@ -39,8 +39,8 @@ void Invert(const float* depth, int count, double* inverse) {
   }
 }
 
-// The default radius is known ahead: with its columns side by side the loop over windows is the one
-// that becomes wide.
+// The default radius is a compile-time constant: with its columns unrolled, the compiler vectorises
+// the loop over windows.
 constexpr int kUsualRadius = WindowOptions().radius;
 
 template <int kRadius>
@@ -96,7 +96,7 @@ template <int kRadius>
   }
 }
 
-// n and the sums with q.
+// Computes n and the sums that contain q.
 CERES_ED_FOR_EACH_MACHINE
 void AddInverseSums(const PixelRow& row, WindowSums* sums) {
   if (row.radius == kUsualRadius) {
@@ -108,7 +108,7 @@ void AddInverseSums(const PixelRow& row, WindowSums* sums) {
   }
 }
 
-// The other sums.
+// Computes the other sums.
 CERES_ED_FOR_EACH_MACHINE
 void AddPlaceSums(const PixelRow& row, WindowSums* sums) {
   if (row.radius == kUsualRadius) {
@@ -151,7 +151,7 @@ std::array<std::vector<double>*, 10> WindowSummer::Sums() {
 }
 
 double* WindowSummer::Pixel(int u, int v) {
-  // Never negative.
+  // The column is never negative.
   const int column = u + margin_ * cell_;
   const std::size_t part = static_cast<std::size_t>(v % size_) * cell_ + column % cell_;
   return inverse_.data() + part * part_size_ + column / cell_;
@@ -178,7 +178,7 @@ const WindowSums& WindowSummer::SumRow(int v0) {
   return sums_;
 }
 
-// Windows [begin, end), the first one around column u0.
+// Sums the windows [begin, end), the first of which is around column u0.
 void WindowSummer::SumWindows(int begin, int end, int u0, int v0) {
   const double* inverse = Pixel(u0, v0) - begin;
   for (int i = begin; i < end; ++i) {

@@ -1,4 +1,5 @@
-// Sums over windows of a depth image for least-squares planes, a row of windows at once.
+// Computes sums over windows of a depth image for least-squares planes, one row of windows at a
+// time.
 #ifndef CERES_ED_SLAM_FRAME_WINDOW_SUMS_H_
 #define CERES_ED_SLAM_FRAME_WINDOW_SUMS_H_
 
@@ -10,37 +11,40 @@
 
 namespace ceres_ed {
 
+// Options of WindowSummer.
 struct WindowOptions {
-  // Pixels from window to window, >= 1.
+  // The spacing of the windows in pixels, >= 1; default 2.
   int cell = 2;
-  // A window has (2 radius + 1)^2 pixels, >= 1.
+  // A window has (2 radius + 1)^2 pixels; >= 1, default 3.
   int radius = 3;
-  // Largest change of depth a pixel, relative to the depth; what is farther off isn't of the
-  // surface. > 0.
+  // The largest change of depth per pixel, relative to the depth, > 0; default 0.01. Pixels that
+  // differ by more do not belong to the surface.
   double max_step = 0.01;
 };
 
-// Over the pixels of a window that belong to the surface at its middle: du and dv count from
-// there, q = z0 / z is the inverse depth relative to that of the middle. One number a window.
+// Sums over the pixels of a window that belong to the surface at its middle. du and dv are relative
+// to the middle, and q = z0 / z is the inverse depth relative to that of the middle. Each vector
+// has one value per window.
 struct WindowSums {
   std::vector<double> n, u, v, uu, uv, vv, q, uq, vq, qq;
 };
 
-// Sums over one row of windows after the other. One object a thread.
+// Computes the sums of one row of windows after the other. Each thread needs its own object.
 class WindowSummer {
  public:
-  // `depth` must outlive it.
+  // `depth` must outlive this object.
   WindowSummer(DepthView depth, const WindowOptions& options);
 
-  // Sums over the windows around the pixels (u, v0) with u = cell i + cell / 2 for i < count(), the
-  // last one at the picture's border where it would be beyond. All are 0 where the middle has no
-  // depth. Quick for rows in ascending order: they share their pixels.
+  // Returns the sums over the windows around the pixels (u, v0) with u = cell i + cell / 2 for i <
+  // count(); the last window is moved to the border of the picture if it would be beyond. All sums
+  // are 0 if the middle has no depth. Rows in ascending order are fast, because they share their
+  // pixels.
   const WindowSums& SumRow(int v0);
 
-  // As many windows as a row of the picture has cells.
+  // Returns the number of windows in a row, which is the number of cells in a row of the picture.
   int count() const { return count_; }
-  // Whether all pixels of a window of the last row count. Then n is full_count(), uu and vv are
-  // full_square(), and u, v and uv are 0.
+  // Returns whether all pixels of a window of the last row belong to the surface. Then n is
+  // full_count(), uu and vv are full_square(), and u, v and uv are 0.
   bool IsFull(int i) const { return sums_.n[i] == full_count(); }
   double full_count() const { return static_cast<double>(size_ * size_); }
   double full_square() const { return full_square_; }
@@ -54,23 +58,24 @@ class WindowSummer {
   DepthView depth_;
   int cell_;
   int radius_;
-  // Side of a window.
+  // The side of a window in pixels.
   int size_;
   int count_;
   double full_square_ = 0.0;
-  // Bounds of q by |dv| and du.
+  // The bounds of q, by |dv| and du.
   std::vector<double> least_;
   std::vector<double> most_;
-  // 1 / z of the rows read last, as many as a window has; 0 where nothing was measured, and left
-  // and right of the picture. Columns cell k + p of one p stand side by side, so that those of
-  // neighbouring windows do.
+  // 1 / z of the rows that were read last, as many as a window has; 0 where nothing was measured,
+  // and to the left and right of the picture. Columns cell k + p with the same p are adjacent in
+  // memory, so that the columns of neighbouring windows are adjacent.
   std::vector<double> inverse_;
   std::vector<double> line_;
-  // Cells left and right of the picture, and cells that there is room for.
+  // The number of cells to the left and right of the picture, and the number of cells for which
+  // there is memory.
   int margin_;
   int part_size_;
   int next_row_ = 0;
-  // Of the last row: z0, where windows have their pixels, and what they sum up to.
+  // For the last row: z0, the addresses of the windows' pixels, and their sums.
   std::vector<double> middle_;
   std::vector<const double*> pixels_;
   WindowSums sums_;

@@ -12,7 +12,7 @@
 namespace ceres_ed {
 namespace {
 
-// Points lie within this many map units (node spacings) of their strongest node.
+// Points lie within this distance of their strongest node, in map units (node spacings).
 constexpr double kReach = 3.0;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The map: points at rest, the graph that carries them, and its present deformation.
+// The map: points at rest, the graph that deforms them, and its present deformation.
 #ifndef CERES_ED_SLAM_MAP_DEFORMABLE_MAP_H_
 #define CERES_ED_SLAM_MAP_DEFORMABLE_MAP_H_
 
@@ -18,7 +18,7 @@ namespace ceres_ed {
 
 class CheckpointArchive;
 
-// How a frozen binding moves a point: v~ = gradient v + offset, map frame.
+// The warp of a point with a fixed binding: v~ = gradient v + offset, in the map frame.
 struct LocalWarp {
   Eigen::Matrix3d gradient = Eigen::Matrix3d::Identity();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();
@@ -26,18 +26,18 @@ struct LocalWarp {
   Eigen::Vector3d operator*(const Eigen::Vector3d& at_rest) const {
     return gradient * at_rest + offset;
   }
-  // Whether it is far enough from folding to be undone.
+  // Returns whether the warp is far enough from folding to be inverted.
   bool IsInvertible() const;
-  // Where a point that is at `now` is at rest. Only of an invertible one.
+  // Returns the rest position of a point that is at `now`. The warp must be invertible.
   Eigen::Vector3d AtRest(const Eigen::Vector3d& now) const;
 };
 
-// Points and nodes, both with stable indices. A point belongs to its strongest node, and nodes are
-// found by place, so that what is in view is found without a walk through the map; nothing that is
-// there is copied when the map grows.
+// The points and nodes of a map, both with stable indices. Each point is stored with its strongest
+// node, and nodes are indexed by their position. The parts near the view are therefore found
+// without visiting the whole map, and no existing data are copied when the map grows.
 class DeformableMap {
  public:
-  // `neighbors` nodes carry a point (m of Eq. 2), in [1, kMaxBoundNodes].
+  // A point is bound to `neighbors` nodes (m of Eq. 2), in [1, kMaxBoundNodes].
   explicit DeformableMap(int neighbors = 4) : points_(neighbors) {}
 
   int neighbors() const { return points_.neighbors(); }
@@ -45,50 +45,57 @@ class DeformableMap {
   const DeformationState& state() const { return state_; }
   void SetCamera(const CameraPose& camera_from_map) { state_.camera_from_map = camera_from_map; }
 
-  // Slots of points, in use or not.
+  // Returns the number of slots for points, used or not.
   int num_slots() const { return points_.size(); }
   int num_points() const { return num_points_; }
+  // Returns whether a slot is used.
   bool alive(int slot) const { return points_.id(slot) >= 0; }
   MapPoint point(int slot) const { return points_[slot]; }
   void SetPoint(int slot, const MapPoint& point) { points_.Set(slot, point); }
   PointBinding binding(int slot) const { return points_.binding(slot); }
-  // Points whose strongest node this is.
+  // Returns the slots of the points whose strongest node this is.
   const std::vector<int>& points_of_node(int node) const { return points_of_node_[node]; }
 
-  // Returns the new node's index. `affine` and the place where it is now decide its state.
+  // Adds a node and returns its index. Its state follows from `affine` and its present position
+  // `now`.
   int AddNode(const Eigen::Vector3d& at_rest,
               const Eigen::Vector3d& now,
               const Eigen::Matrix3d& affine);
-  // An edge of weight 1 in either direction.
+  // Adds an edge of weight 1 in each direction.
   void Connect(int a, int b);
-  // A_j and t_j of a node that is there, in the layout of node_parameters.h.
+  // Sets A_j and t_j of an existing node, in the layout of node_parameters.h.
   void SetNode(int node, const double* parameters);
 
-  // Returns the slot of a new point; its id is the next one.
+  // Adds a point and returns its slot. The point gets the next unused identifier.
   int AddPoint(MapPoint point, const Binding& binding);
-  // Gives a point to other nodes. Weights are rounded here as there (MapPoints::Kept).
+  // Binds a point to other nodes. As in AddPoint(), the weights are rounded (MapPoints::Kept).
   void Rebind(int slot, const Binding& binding);
+  // Removes a point; its slot may be used again.
   void RemovePoint(int slot);
 
-  // t_j where a node is thought to be; that of its birth for a new one.
+  // Returns the expected translation t_j of a node; for a new node, the one that it was created
+  // with.
   const Eigen::Vector3d& node_prior(int node) const { return node_prior_[node]; }
   void SetNodePrior(int node, const Eigen::Vector3d& translation) {
     node_prior_[node] = translation;
   }
 
-  // Where node j is now, g_j + t_j.
+  // Returns the present position of node j, g_j + t_j.
   Eigen::Vector3d NodePosition(int node) const;
+  // Returns the present warp of points with this binding (Eq. 1 without the camera).
   LocalWarp WarpOf(const Binding& binding) const;
-  // The rotation nearest to that, about the bound nodes: the same without its strain.
+  // Returns the same with the nearest rotation as gradient, about the bound nodes: the warp without
+  // its strain.
   LocalWarp RigidWarpOf(const Binding& binding) const;
 
-  // The nodes that may carry something in view, by number, and few others.
+  // Returns the nodes, in ascending order, to which points in the view may be bound, and few
+  // others.
   std::vector<int> NodesNearView(const ViewVolume& view) const;
 
-  // Adds what it holds to that of its owners.
+  // Adds the memory that the map occupies to the fields of `memory`.
   void AddMemory(MapMemory* memory) const;
 
-  // Saves everything, or loads it in the place of what is there.
+  // Saves the whole map, or loads it and replaces the present one.
   void Exchange(CheckpointArchive* archive);
 
  private:

@@ -1,4 +1,4 @@
-// What a map holds in memory, by owner.
+// The memory that a map occupies, by part.
 #ifndef CERES_ED_SLAM_MAP_MAP_MEMORY_H_
 #define CERES_ED_SLAM_MAP_MAP_MEMORY_H_
 
@@ -6,22 +6,24 @@
 
 namespace ceres_ed {
 
-// Bytes on the heap, of all that grows with the map: by what the containers have room for, whether
-// it is in use or not, and as the allocator rounds it. What a frame makes and drops isn't in it.
+// Bytes on the heap of everything that grows with the map: the capacity of the containers, whether
+// it is used or not, rounded up like the allocator does. Temporary memory of a frame is not
+// included.
 struct MapMemory {
-  // Rest positions, states and priors.
+  // Rest positions, states and priors of the nodes.
   std::size_t nodes = 0;
-  // Edges, and of each node those that touch it.
+  // Edges, and for each node the list of its edges.
   std::size_t edges = 0;
   std::size_t node_index = 0;
-  // Where nodes were while they were seen.
+  // The positions of nodes at the times when they were seen (TissueMemory).
   std::size_t tissue_memory = 0;
-  // What the levels know of every node: what is unsettled, what was moved, its place in the window.
+  // The data that the levels store for every node: unsettled changes, motion, and the place in the
+  // window.
   std::size_t levels = 0;
 
   std::size_t points = 0;
   std::size_t bindings = 0;
-  // Of each node those that are bound to it most, and slots that are free.
+  // For each node the points that are bound most strongly to it, and the free slots.
   std::size_t point_lists = 0;
 
   std::size_t OfNodes() const { return nodes + edges + node_index + tissue_memory + levels; }

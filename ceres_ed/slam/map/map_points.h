@@ -1,4 +1,4 @@
-// The points of a map, packed: a map has twenty times as many of them as nodes.
+// The points of a map in a compact form: a map has twenty times as many points as nodes.
 #ifndef CERES_ED_SLAM_MAP_MAP_POINTS_H_
 #define CERES_ED_SLAM_MAP_MAP_POINTS_H_
 
@@ -20,26 +20,27 @@ namespace ceres_ed {
 
 class CheckpointArchive;
 
-// What the map knows of one point. Lengths are in map units. The map keeps `position` as it is;
-// `weight` and `birth_position` to 24 bits, and of `normal` each component to 1 / 32767.
+// One point of the map. Lengths are in map units. The map stores `position` exactly, `weight` and
+// `birth_position` with 24 bits, and each component of `normal` to 1 / 32767.
 struct MapPoint {
-  // Where it is while all nodes are at rest.
+  // The position of the point when all nodes are at rest.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
-  // Unit length, at rest.
+  // The normal at rest, of unit length.
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
-  // Number of observations in the running average.
+  // The number of observations in the running average.
   double weight = 0.0;
   std::array<std::uint8_t, 3> color = {200, 200, 200};
-  // Never reused.
+  // The identifier, which is never used again.
   int id = -1;
   int birth_frame = -1;
-  // In the camera frame of that frame.
+  // The position in the camera frame of the frame `birth_frame`.
   Eigen::Vector3d birth_position = Eigen::Vector3d::Zero();
-  // Frames in which the camera saw through it, less those in which it saw it; up to 32767.
+  // The number of frames in which the camera saw through the point, minus those in which it saw the
+  // point; at most 32767.
   int contradictions = 0;
 };
 
-// A binding with its own memory.
+// A binding that owns its memory.
 struct PointBinding {
   PointBinding() = default;
   explicit PointBinding(const Binding& binding) : size(binding.size) {
@@ -47,23 +48,24 @@ struct PointBinding {
     std::copy_n(binding.weights, size, weights);
   }
 
-  // Valid as long as this is; what a call returns has to be kept first.
+  // The result is valid as long as this object exists; a temporary object must be stored first.
   // NOLINTNEXTLINE(google-explicit-constructor): it stands wherever a Binding does.
   operator Binding() const& { return {nodes, weights, size}; }
   operator Binding() const&& = delete;  // NOLINT(google-explicit-constructor)
 
-  // Only the first `size` count.
+  // Only the first `size` entries are used.
   int nodes[kMaxBoundNodes];
   double weights[kMaxBoundNodes];
   int size = 0;
 };
 
-// Points and their bindings, each by slot; adding one moves none of the others. A point takes 60
-// bytes and 8 for each of `neighbors` nodes, less 4: weights have 24 bits, and that of the first
-// node is what the others leave of 1, so that they sum to 1 in double, far from the origin, too.
+// Points and their bindings, by slot. Adding a point does not move others in memory. With n =
+// `neighbors`, a point takes 60 + 8 n - 4 bytes: weights have 24 bits, and the weight of the first
+// node is 1 minus the others, so that the weights sum to 1 in double precision, which matters far
+// from the origin.
 class MapPoints {
  public:
-  // At most `neighbors` nodes a point, in [1, kMaxBoundNodes].
+  // A point is bound to at most `neighbors` nodes, in [1, kMaxBoundNodes].
   explicit MapPoints(int neighbors)
       : neighbors_(neighbors), records_(1), bindings_(2 * neighbors - 1) {
     CHECK(neighbors >= 1 && neighbors <= kMaxBoundNodes) << "neighbors " << neighbors;
@@ -71,7 +73,7 @@ class MapPoints {
 
   int neighbors() const { return neighbors_; }
   int size() const { return static_cast<int>(records_.size()); }
-  // Of a slot without a point: -1.
+  // Returns the identifier of the point in a slot, or -1 if the slot is empty.
   int id(int slot) const { return records_[slot]->id; }
   MapPoint operator[](int slot) const { return Unpack(*records_[slot]); }
   PointBinding binding(int slot) const {
@@ -80,28 +82,32 @@ class MapPoints {
     return binding;
   }
 
-  // Adds slots without points.
+  // Adds empty slots, so that there are `slots` in all.
   void Resize(int slots) {
     records_.Resize(static_cast<std::size_t>(slots));
     bindings_.Resize(static_cast<std::size_t>(slots));
   }
+  // Stores a point in a slot.
   void Set(int slot, const MapPoint& point) { *records_[slot] = Pack(point); }
-  // `binding` has 1 to neighbors() nodes, the strongest first.
+  // Stores the binding of a slot. `binding` has 1 to neighbors() nodes, the strongest first.
   void Bind(int slot, const Binding& binding);
+  // Empties a slot.
   void Remove(int slot) { records_[slot]->id = -1; }
 
-  // Returns `binding` as it would be kept.
+  // Returns `binding` as it is stored, with rounded weights.
   static PointBinding Kept(const Binding& binding);
 
   std::size_t PointHeapBytes() const { return records_.HeapBytes(); }
   std::size_t BindingHeapBytes() const { return bindings_.HeapBytes(); }
 
+  // Saves all points, or loads them and replaces the present ones.
   void Exchange(CheckpointArchive* archive);
 
  private:
-  // Without gaps: checkpoints hold it as it lies in memory.
+  // A record has no padding, because checkpoints store it as it lies in memory.
   struct Record {
-    // Three doubles, which would ask for places that 60 bytes don't leave.
+    // Three doubles as pairs of words; doubles would require an alignment that 60 bytes do not
+    // permit.
     std::array<std::uint32_t, 6> position = {};
     std::array<float, 3> birth_position = {};
     float weight = 0.0f;
@@ -120,11 +126,12 @@ class MapPoints {
 
   int neighbors_;
   ChunkedRows<Record> records_;
-  // Of each point its nodes, -1 behind the last, then the weights of all but the first as floats.
+  // For each point its nodes, followed by -1 for unused places, then all weights except the first
+  // as floats.
   ChunkedRows<std::int32_t> bindings_;
 };
 
-// Here, so that who looks at one member doesn't unpack the others.
+// Inline, so that code that reads one member does not unpack the others.
 inline MapPoint MapPoints::Unpack(const Record& record) {
   MapPoint point;
   std::memcpy(point.position.data(), record.position.data(), sizeof(record.position));

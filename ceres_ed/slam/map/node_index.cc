@@ -9,10 +9,11 @@
 namespace ceres_ed {
 namespace {
 
-// Width of the smallest cells, map units; those of the next level are 2^kShift times as wide.
+// The width of the smallest cells, in map units. The cells of the next level are 2^kShift times as
+// wide.
 constexpr double kCellSize = 4.0;
 constexpr int kShift = 3;
-// A cell is three whole numbers of this many bits, around kZero.
+// A cell is given by three integers with this many bits, which are offset by kZero.
 constexpr int kBits = 21;
 constexpr std::int64_t kZero = std::int64_t{1} << (kBits - 1);
 constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
@@ -20,7 +21,7 @@ constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
 std::uint64_t KeyOf(const Eigen::Vector3d& position) {
   std::uint64_t key = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    // A node that has gone that far is lost to any camera.
+    // A node that is so far away is out of reach of any camera.
     const double limit = static_cast<double>(kZero) - 1.0;
     const double cell = std::clamp(std::floor(position[axis] / kCellSize), -limit, limit);
     key = key << kBits | static_cast<std::uint64_t>(static_cast<std::int64_t>(cell) + kZero);
@@ -61,7 +62,7 @@ void NodeIndex::Place(int node, const Eigen::Vector3d& position) {
   Insert(key, static_cast<Key>(node));
 }
 
-// A cell that is new is put into its parent, and so on.
+// Adds `member` to a cell. A new cell is added to its parent, and so on.
 void NodeIndex::Insert(Key key, Key member) {
   for (int level = 0; level < kLevels; ++level) {
     const auto [cell, is_new] = levels_[level].try_emplace(key);
@@ -72,6 +73,7 @@ void NodeIndex::Insert(Key key, Key member) {
   }
 }
 
+// Removes `member` from a cell. An empty cell is removed from its parent, and so on.
 void NodeIndex::Remove(Key key, Key member) {
   for (int level = 0; level < kLevels; ++level) {
     const auto cell = levels_[level].find(key);

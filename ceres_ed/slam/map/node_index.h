@@ -1,4 +1,4 @@
-// Where the nodes are: finds those near the view without a look at the others.
+// A spatial index of the nodes, which finds those near the view without visiting the others.
 #ifndef CERES_ED_SLAM_MAP_NODE_INDEX_H_
 #define CERES_ED_SLAM_MAP_NODE_INDEX_H_
 
@@ -15,15 +15,15 @@
 
 namespace ceres_ed {
 
-// Cells of cells in hash tables, only those that hold something. Lengths are in map units (node
-// spacings); a node that moves within its cell costs a comparison.
+// A hierarchy of cubic cells in hash tables, which contain non-empty cells only. Lengths are in map
+// units (node spacings). A node that moves within its cell costs one comparison.
 class NodeIndex {
  public:
-  // Adds a node, or takes note of where it has gone. Nodes are added in the order of their numbers.
+  // Adds a node, or updates its position. Nodes must be added in the order of their numbers.
   void Place(int node, const Eigen::Vector3d& position);
 
-  // The nodes of every cell that comes within `reach` of the view, by number: all nodes that do,
-  // and some more.
+  // Returns, in ascending order, the nodes of every cell that comes within `reach` of the view.
+  // These are all nodes within that distance, and some more.
   std::vector<int> NearView(const ViewVolume& view, double reach) const;
 
   std::size_t HeapBytes() const;
@@ -31,7 +31,7 @@ class NodeIndex {
  private:
   using Key = std::uint64_t;
   struct Cell {
-    // Nodes of a cell of the lowest level, cells of the next lower one of any other.
+    // On the lowest level the nodes of the cell; on other levels its cells on the next lower level.
     std::vector<Key> members;
   };
   static constexpr int kLevels = 4;
@@ -40,7 +40,7 @@ class NodeIndex {
   void Remove(Key key, Key member);
 
   std::array<std::unordered_map<Key, Cell>, kLevels> levels_;
-  // Of each node, the cell of the lowest level.
+  // The cell of each node on the lowest level.
   std::deque<Key> cell_of_node_;
 };
 

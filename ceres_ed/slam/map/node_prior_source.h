@@ -1,4 +1,4 @@
-// Who says where nodes are thought to be.
+// The interface to a source of expected node positions.
 #ifndef CERES_ED_SLAM_MAP_NODE_PRIOR_SOURCE_H_
 #define CERES_ED_SLAM_MAP_NODE_PRIOR_SOURCE_H_
 
@@ -8,12 +8,12 @@
 
 namespace ceres_ed {
 
-// Asked by a level for the nodes that it looks at, and for no others.
+// Provides the expected positions of nodes. A level calls it only for the nodes that it uses.
 class NodePriorSource {
  public:
   virtual ~NodePriorSource() = default;
 
-  // Brings map->node_prior() of these nodes up to date.
+  // Updates map->node_prior() of these nodes.
   virtual void UpdatePriors(const std::vector<int>& nodes, DeformableMap* map) = 0;
 };
 

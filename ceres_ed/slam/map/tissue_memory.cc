@@ -13,11 +13,13 @@
 namespace ceres_ed {
 namespace {
 
-// Weight of a moment that isn't like the present at all: what is left is the mean.
+// The weight of a moment without any similarity. If there are only such moments, the result is
+// their mean.
 constexpr double kLeastLikeness = 1e-6;
-// Mean square distance from a line, squared map units, from which on nodes tell a turn.
+// The smallest mean square distance of nodes from a line, in squared map units, that determines a
+// rotation.
 constexpr double kLeastExtent = 1.0;
-// Of a component of a translation.
+// The largest step number of a component of a translation.
 constexpr double kMostSteps = 65535.0;
 
 Eigen::Vector3d PlaceOf(const DeformableMap& map, int node, const Eigen::Vector3d& translation) {
@@ -59,7 +61,7 @@ TissueMemory::Moment TissueMemory::MakeMoment(const std::vector<int>& nodes,
     const Eigen::Vector3d t = translation(nodes[k]);
     std::array<std::uint16_t, 3> steps = {};
     for (int i = 0; i < 3; ++i) {
-      // Where all nodes have the same there is no step.
+      // If all nodes have the same value, the step is zero.
       if (!(moment.step[i] > 0.0)) continue;
       const double along = (t[i] - moment.origin[i]) / moment.step[i];
       steps[i] = static_cast<std::uint16_t>(std::clamp(std::round(along), 0.0, kMostSteps));
@@ -84,7 +86,8 @@ void TissueMemory::VisitCommon(const Moment& moment, const std::vector<int>& nod
   }
 }
 
-// Sums over the nodes that are in view now and were at a moment: places then (p) and now (q).
+// Sums over the nodes that are in view now and belong to a moment: their positions then (p) and now
+// (q).
 struct TissueMemory::Comparison {
   int common = 0;
   Eigen::Vector3d p = Eigen::Vector3d::Zero();
@@ -101,6 +104,7 @@ struct TissueMemory::Comparison {
   }
 };
 
+// Computes the best rigid motion from the sums (Kabsch).
 TissueMemory::Alignment TissueMemory::Align(const Comparison& c) {
   Alignment alignment;
   alignment.common = c.common;
@@ -111,7 +115,7 @@ TissueMemory::Alignment TissueMemory::Align(const Comparison& c) {
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d signs = Eigen::Vector3d::Ones();
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) signs.z() = -1.0;
-  // Few nodes, or nodes in a line, say nothing of a turn.
+  // Few nodes, or nodes on a line, do not determine a rotation.
   if (svd.singularValues()[1] > kLeastExtent * n) {
     alignment.rotation = svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
   }
@@ -149,6 +153,8 @@ void TissueMemory::Look(const NodeSet& observed, const DeformableMap& map) {
   JudgeLikeness();
 }
 
+// Rates each moment with a Gaussian of its difference. The width is at least `likeness`, and larger
+// if even the nearest moment differs by more.
 void TissueMemory::JudgeLikeness() {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Alignment& a : alignments_) {
@@ -216,7 +222,7 @@ void TissueMemory::Keep(const NodeSet& observed, const DeformableMap& map) {
   if (static_cast<int>(moments_.size()) > options_.max_moments) Thin();
 }
 
-// Whenever the number of moments has doubled.
+// Removes every second moment when their number has exceeded the limit.
 void TissueMemory::Thin() {
   stride_ *= 2;
   std::size_t kept = 0;

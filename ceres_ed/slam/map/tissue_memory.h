@@ -1,4 +1,4 @@
-// What nodes did while they were seen: where they are thought to be while nobody looks.
+// Remembers the motion of nodes while they were seen, in order to predict where hidden nodes are.
 #ifndef CERES_ED_SLAM_MAP_TISSUE_MEMORY_H_
 #define CERES_ED_SLAM_MAP_TISSUE_MEMORY_H_
 
@@ -18,48 +18,51 @@ namespace ceres_ed {
 
 class CheckpointArchive;
 
-// Breathing and heartbeat bring tissue back to where it was. The places of observed nodes are kept
-// moment by moment; hidden ones are recalled as they were when what is in view looked as it does
-// now, up to a common rigid motion, which is the gauge of map and camera.
+// Breathing and heartbeat return tissue to earlier positions. This class stores the positions of
+// observed nodes at many moments. It recalls hidden nodes from the moments at which the visible
+// nodes looked as they do now, up to a common rigid motion, which is the gauge of map and camera.
 //
-// Within a frame: BeginFrame(), then Look() ahead of every solve, priors as they are asked for, and
-// Keep() at the end. The cost is that of the view and of the runs of nodes of all
-// moments, and the memory six bytes a node of each moment, whatever else the map has.
+// Within a frame, call BeginFrame(), then Look() before every solve, UpdatePriors() whenever priors
+// are needed, and Keep() at the end. The time depends on the size of the view and on the number of
+// runs of nodes in all moments, and the memory is six bytes per node and moment; neither depends on
+// the rest of the map.
 class TissueMemory final : public NodePriorSource {
  public:
   explicit TissueMemory(const TissueMemoryOptions& options) : options_(options) {}
 
-  // Nodes that are `observed` stay where they are, as far as their prior is concerned.
+  // Starts a frame. The prior of each `observed` node is its present position.
   void BeginFrame(const NodeSet& observed, DeformableMap* map);
 
-  // Compares the present with the moments, by the nodes that are `observed`. From now on these keep
-  // the prior that they have.
+  // Compares the present positions of the `observed` nodes with all moments. From now on these
+  // nodes keep their present prior.
   void Look(const NodeSet& observed, const DeformableMap& map);
 
-  // The prior of a node that isn't observed is where it is recalled, by the last Look(): the mean
-  // over its moments where nothing was alike, the present place where it was never kept.
+  // Sets the prior of nodes that are not observed to their recalled positions, according to the
+  // last Look(): the mean over all moments of the node if no moment is similar, and the present
+  // position if the node was never stored.
   void UpdatePriors(const std::vector<int>& nodes, DeformableMap* map) override;
 
-  // Returns the nodes whose recalled place depends on the last Look(), by number; the others are
-  // recalled as ever.
+  // Returns, in ascending order, the nodes whose recalled position depends on the last Look(). The
+  // recalled positions of the others do not change.
   std::vector<int> Affected() const;
 
-  // Keeps t_j of the nodes that are `observed`.
+  // Stores t_j of the `observed` nodes as a new moment.
   void Keep(const NodeSet& observed, const DeformableMap& map);
 
   std::size_t HeapBytes() const;
 
-  // For checkpoints, between frames.
+  // Saves or loads the memory, for checkpoints between frames.
   void Exchange(CheckpointArchive* archive);
 
  private:
-  // Nodes first, first + 1, ...
+  // The nodes first, first + 1, ..., `count` in all.
   struct Run {
     int first = 0;
     int count = 0;
   };
-  // t_j of the nodes that were seen, by number. A component is one of 65536 steps of the box that
-  // they span, some 1e-4 of a spacing, where moments are alike up to `likeness`.
+  // The translations t_j of the nodes that were seen at one moment, in ascending order of the
+  // nodes. Each component is one of 65536 steps across the box of these translations. If moments
+  // are similar up to `likeness`, a step is about 1e-4 of a node spacing.
   struct Moment {
     std::vector<Run> runs;
     std::vector<std::array<std::uint16_t, 3>> translations;
@@ -68,12 +71,12 @@ class TissueMemory final : public NodePriorSource {
 
     Eigen::Vector3d Translation(std::size_t row) const;
   };
-  // A moment laid on the present: q = rotation p + translation, as well as a rigid motion can, and
-  // how much it is like it.
+  // The rigid motion that maps a moment best to the present, q = rotation p + translation, and the
+  // similarity of the two.
   struct Alignment {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-    // Mean of |q - rotation p - translation|^2.
+    // The mean of |q - rotation p - translation|^2.
     double difference = 0.0;
     int common = 0;
     double likeness = 0.0;
@@ -83,20 +86,21 @@ class TissueMemory final : public NodePriorSource {
   static Alignment Align(const Comparison& comparison);
   void JudgeLikeness();
   static Moment MakeMoment(const std::vector<int>& nodes, const DeformableMap& map);
-  // Calls visit(k, t) for each nodes[k], by number, that the moment knows.
+  // Calls visit(k, t) for each nodes[k], in ascending order, that the moment contains.
   template <typename Visit>
   static void VisitCommon(const Moment& moment, const std::vector<int>& nodes, Visit visit);
   void Thin();
 
   TissueMemoryOptions options_;
-  // Number of the next moment.
+  // The number of the next moment.
   int next_moment_ = 0;
-  // Only moments whose number it divides are kept.
+  // Only moments whose number is divisible by this are stored.
   int stride_ = 1;
-  // By number / stride.
+  // The stored moments, by number / stride.
   std::vector<Moment> moments_;
 
-  // Of the present frame: nodes whose prior is settled, and the moments by moment / stride.
+  // Data of the present frame: the nodes whose prior is settled, and the alignments by moment /
+  // stride.
   NodeSet anchored_;
   std::vector<Alignment> alignments_;
 };

@@ -3,7 +3,7 @@
 namespace ceres_ed {
 
 ViewVolume::ViewVolume(const CameraPose& camera_from_map, const PinholeCamera& camera) {
-  // Pixels reach half a pixel beyond their centres: -0.5 <= fx x / z + cx < width - 0.5.
+  // Pixels extend half a pixel beyond their centres: -0.5 <= fx x / z + cx < width - 0.5.
   const Eigen::Vector3d normals[] = {{0.0, 0.0, 1.0},
                                      {camera.fx, 0.0, camera.cx + 0.5},
                                      {-camera.fx, 0.0, camera.width - 0.5 - camera.cx},

@@ -11,13 +11,14 @@
 
 namespace ceres_ed {
 
-// The pyramid behind the borders of the picture, before the camera, in the map's frame.
+// The pyramid of the rays through the picture, in front of the camera, in the map frame.
 class ViewVolume {
  public:
   ViewVolume(const CameraPose& camera_from_map, const PinholeCamera& camera);
 
-  // Whether a ball may reach into it: true for every ball that does, and for few others, beside
-  // its edges. True for a ball that holds such a ball.
+  // Returns whether a ball may intersect the volume. The result is true for every ball that does,
+  // and for few others near the edges of the pyramid. If it is true for a ball, it is true for
+  // every ball that contains it.
   bool MayTouch(const Eigen::Vector3d& center, double radius) const {
     for (const Plane& plane : planes_) {
       if (plane.normal.dot(center) + plane.offset < -radius) return false;
@@ -26,7 +27,7 @@ class ViewVolume {
   }
 
  private:
-  // normal . x + offset >= 0 inside; unit normals.
+  // normal . x + offset >= 0 inside the volume; the normals have unit length.
   struct Plane {
     Eigen::Vector3d normal;
     double offset;
