@@ -31,6 +31,7 @@ Eigen::MatrixXd InvertFront(const MultifrontalFactor& factor,
   const Eigen::MatrixXd inverse = L_PP.solve(Eigen::MatrixXd::Identity(w, w));
   Z.topLeftCorner(w, w).noalias() = inverse.transpose() * inverse;
   if (u == 0) return Z;
+  // Y = L_UP L_PP^-1, Z_UP = -Z_UU Y, and Y^T Z_UU Y is added to Z_PP.
   const Eigen::MatrixXd Y = L_PP.solve<Eigen::OnTheRight>(Eigen::MatrixXd(factor.Below(front)));
   Z.bottomRightCorner(u, u) = Z_UU;
   Z.bottomLeftCorner(u, w).noalias() = -Z_UU * Y;

@@ -109,6 +109,7 @@ Status CoarseToFine::Run(FitResult* result) {
   double best_missed = std::numeric_limits<double>::infinity();
   int start = -1;
   double loss_width = options.loss_width;
+  // The coarse graphs are fitted in each way; the state that leaves less unmatched is kept.
   for (std::size_t i = 0; i < ways.size() && last > 0; ++i) {
     DeformationState state;
     int level = 0;
@@ -135,6 +136,7 @@ Status CoarseToFine::Run(FitResult* result) {
     // Everything that the smaller surface shows is explained, so another way cannot be better.
     if (std::min(missed.source, missed.target) < kNothingMissed) break;
   }
+  // The finest graph starts from the best coarse state.
   graph_ = last;
   LevelPlan plan = plans[last];
   plan.loss_width = loss_width;

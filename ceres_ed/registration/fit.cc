@@ -283,9 +283,11 @@ void Fitter::WarnAboutReflections(const DeformationState& state) {
 
 StatusOr<FitResult> Fitter::Run() {
   if (Status status = ValidateFit(input_, options_); !status.ok()) return status;
+  // 1. The rigid placement target_from_source.
   PlaceRigidly();
 
   Timer timer;
+  // 2. Both surfaces in the unit frame; the target is denoised.
   PointCloud placed = Transformed(result_.rigid, input_.source);
   unit_from_target_ = UnitFrame(placed);
   const Surface source(Transformed(unit_from_target_, placed), options_.num_threads);
@@ -310,6 +312,7 @@ StatusOr<FitResult> Fitter::Run() {
   std::vector<PointConstraint> fixed;
   for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
   const FitOptions unit_options = UnitOptions(source, target.get());
+  // 3. The deformation by the nodes, from coarse to fine graphs.
   const UnitFit fit = {&source,
                        target.get(),
                        &unit_options,
@@ -320,6 +323,7 @@ StatusOr<FitResult> Fitter::Run() {
                        &clock_};
   CoarseToFine levels(fit);
   if (Status status = levels.Run(&result_); !status.ok()) return status;
+  // 4. The warp in the source frame, and the finish of every vertex.
   Finish(fit, levels.graph(), levels.state());
   return std::move(result_);
 }

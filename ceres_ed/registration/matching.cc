@@ -232,6 +232,7 @@ Matches MatchBothWays(const MovedSource& source,
       source, target, target_samples, options, memory, options.with_details ? &details : nullptr);
   Matches matches;
   matches.robust_distance = kDeviationPerMedian * MedianDistance(candidates);
+  // The limit on the distance of a pair follows from the robust deviation of all pairs.
   const double limit =
       std::max(options.resolution, options.max_deviations * matches.robust_distance);
   double sum_plane = 0.0;

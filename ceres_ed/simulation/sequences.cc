@@ -202,6 +202,7 @@ SyntheticFrame SyntheticSequence::Render(int frame, bool with_color) const {
   SyntheticFrame result;
   result.world_from_camera = scene_->WorldFromCamera(frame);
   result.mask = scene_->Mask(frame);
+  // The deformed tissue in the camera frame.
   const PointCloud patch = scene_->RestPatch(frame);
   std::vector<Eigen::Vector3d> points;
   points.reserve(patch.size());

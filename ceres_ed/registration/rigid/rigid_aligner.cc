@@ -144,6 +144,7 @@ RigidScore RigidAligner::Score(const Similarity& pose) const {
     if (pair.found && pair.agrees) {
       const double angle = std::acos(std::clamp(pair.cosine, -1.0, 1.0)) / kAngleWidth;
       const Eigen::Vector3d gap = pair.moved - pair.target;
+      // The distance across the surface, and the one along it beyond the spacing of the samples.
       const double off = pair.normal.dot(gap);
       const double along = std::max(
           0.0, std::sqrt(std::max(0.0, pair.squared_distance - off * off)) - options_.slack);
@@ -255,6 +256,7 @@ Similarity RigidAligner::Refine(Similarity pose, int iterations) const {
     }
     if (squared.empty()) return pose;
     const double distance = std::sqrt(Median(std::move(squared)));
+    // The width of the loss is twice the robust standard deviation of the distances.
     const double sigma = std::max(floor, 2.0 * kDeviationPerMedian * distance);
     Similarity before = pose;
     if (!Step(pairs, sigma, &pose)) return before;

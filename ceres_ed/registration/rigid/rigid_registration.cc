@@ -125,6 +125,7 @@ ScoredPose StartFinder::Search(const RigidAligner& coarse, int* starts_tried) co
       RigidStarts(source_surface_.cloud().points, target_surface_.cloud().points, initial_);
   const std::vector<Similarity> found = SearchRigidly(source_, target_, search);
   starts.insert(starts.end(), found.begin(), found.end());
+  // All starts are refined roughly.
   const RigidAligner rough = Aligner(kSiftSamples);
   std::vector<ScoredPose> sifted;
   for (const Similarity& start : starts) {
@@ -135,6 +136,7 @@ ScoredPose StartFinder::Search(const RigidAligner& coarse, int* starts_tried) co
   std::stable_sort(sifted.begin(), sifted.end(), [](const ScoredPose& a, const ScoredPose& b) {
     return a.score.Total() < b.score.Total();
   });
+  // The best of them are refined better.
   if (sifted.size() > kSiftKept) sifted.resize(kSiftKept);
   ScoredPose best{initial_, RigidScore()};
   for (const ScoredPose& start : sifted) {
@@ -157,6 +159,7 @@ RigidResult AlignRigid(const Surface& source,
   const StartFinder finder(source, target, initial, options);
   const RigidAligner coarse = finder.Aligner(kCoarseSamples);
   RigidResult result;
+  // The given pose is refined on the coarse surfaces.
   ScoredPose best = Refined(coarse, initial, kCoarseIterations);
   result.starts_tried = 1;
   const bool stopped = options.should_stop && options.should_stop();
@@ -165,6 +168,7 @@ RigidResult AlignRigid(const Surface& source,
     // The new pose must be clearly better than the given one.
     if (found.score.Total() < options.preference * best.score.Total()) best = found;
   }
+  // Finally the best pose is refined on the points themselves.
   result.target_from_source = fine.Refine(best.pose, kFineIterations);
   result.score = fine.Score(result.target_from_source).Total();
   return result;

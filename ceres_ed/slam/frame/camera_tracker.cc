@@ -136,6 +136,7 @@ CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
   result.camera_from_map = start;
   std::vector<VisiblePoint> points = Thinned(all_points, options.max_points);
   if (points.empty()) return result;
+  // Each iteration associates the points again and takes one Gauss-Newton step.
   for (int iteration = 0;; ++iteration) {
     CameraPose& pose = result.camera_from_map;
     MoveTo(pose, surface.camera(), &points);

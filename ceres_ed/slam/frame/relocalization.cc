@@ -88,6 +88,7 @@ Relocalization Relocalize(const DeformableMap& map,
                           const CameraPose& last,
                           const VisibilityOptions& visibility,
                           const PoseQualityOptions& options) {
+  // The whole map is laid onto the observed surface.
   const Surface source(MapCloud(map));
   const Surface target(SurfaceCloud(surface));
   Similarity initial;
@@ -100,6 +101,7 @@ Relocalization Relocalize(const DeformableMap& map,
   found.rotation = aligned.target_from_source.rotation;
   found.translation = aligned.target_from_source.translation;
 
+  // The last pose and the new one are refined as in tracking; the better one is returned.
   Relocalization best;
   for (const CameraPose& start : {last, found}) {
     CameraTrackerOptions tracker;

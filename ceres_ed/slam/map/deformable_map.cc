@@ -88,6 +88,7 @@ Eigen::Vector3d DeformableMap::NodePosition(int node) const {
   return graph_.position(node) + NodeTranslation(state_.node(node));
 }
 
+// Eq. 1 without the camera: sum_j w_j [A_j (v - g_j) + g_j + t_j] = gradient v + offset.
 LocalWarp DeformableMap::WarpOf(const Binding& binding) const {
   LocalWarp warp;
   warp.gradient.setZero();

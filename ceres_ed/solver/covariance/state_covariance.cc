@@ -95,6 +95,7 @@ StatusOr<StateCovariance> StateCovariance::Compute(const ProblemBuilder& builder
   }
   if (equations.camera_variable()) impl->camera_block = equations.num_variable_nodes();
 
+  // J^T J, with room for the pairs of nodes to which a common point is bound.
   std::vector<BlockPair> pairs = equations.BlockPairs();
   if (options.skinning != nullptr) {
     const std::vector<BlockPair> more = PairsOf(*options.skinning, impl->block_of_node);

@@ -126,6 +126,8 @@ bool NormalEquations::AddRun(const PointRun& run,
       if (!linearize) continue;
       double* jacobian = jacobians + 3 * num_residuals * k;
       double scale = rho[1];
+      // For a concave loss the correction is the factor rho' on the products. Other losses need
+      // Triggs' correction of residuals and Jacobian.
       if (rho[2] > 0.0) {
         const double squared_norm =
             Eigen::Map<const Eigen::VectorXd>(residuals, num_residuals).squaredNorm();
@@ -192,6 +194,7 @@ void NormalEquations::SpreadGradients(int index,
     if (blocks[a] < 0) continue;
     double* g = Gradient(DiagonalSlot(index, a), sums);
     const double* from = scratch.sums.gradients[a];
+    // The sums have levers relative to the first node; the shift makes them relative to node a.
     const Eigen::Vector3d shift = positions[0] - positions[a];
     for (int i = 0; i < 4; ++i) {
       for (int r = 0; r < 3; ++r) {

@@ -112,6 +112,7 @@ void NormalEquations::DealOut(const DeformationGraph& graph) {
     const BlockRef& block = item.residual.blocks[0];
     return block.kind == BlockRef::Kind::kNode ? bin_of(block.node) : 0;
   };
+  // The work in each strip.
   std::array<std::int64_t, kNumBins> work{};
   for (const PointGroup& group : points_.groups()) {
     work[bin_of(points_.nodes(group)[0])] += group.num_points + kGroupWork;
@@ -123,6 +124,7 @@ void NormalEquations::DealOut(const DeformationGraph& graph) {
   for (const std::int64_t w : work) total += w;
   const int num_tasks =
       static_cast<int>(std::clamp<std::int64_t>(total / kMinTaskWork, 1, kMaxTasks));
+  // Consecutive strips of about the same total work form a task.
   std::array<int, kNumBins> task_of_bin{};
   std::int64_t before = 0;
   for (int i = 0; i < kNumBins; ++i) {
