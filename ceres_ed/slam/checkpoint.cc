@@ -14,16 +14,16 @@ using nlohmann::json;
 constexpr char kFormat[] = "ceres_ed checkpoint";
 constexpr double kProbe = 1.0;
 
-// The parts of CBOR (RFC 8949) that a checkpoint has.
+// The parts of CBOR (RFC 8949) that a checkpoint uses.
 constexpr char kOpenMap = '\xbf';
 constexpr char kCloseMap = '\xff';
 constexpr unsigned char kText = 0x60;
 constexpr unsigned char kBytes = 0x40;
 constexpr unsigned char kUnsigned = 0x00;
-// Added to these: eight bytes follow, the largest first.
+// Is added to a type if eight bytes follow, the most significant first.
 constexpr unsigned char kEightBytes = 27;
 
-// FNV-1a: what damage does to a file, it sees.
+// FNV-1a, which detects damage of a file.
 std::uint64_t Checksum(const void* data, std::size_t size) {
   const auto* bytes = static_cast<const unsigned char*>(data);
   std::uint64_t hash = 14695981039346656037ull;
@@ -37,7 +37,7 @@ void PutNumber(std::uint64_t number, std::size_t at, std::string* bytes) {
   }
 }
 
-// A number of its own, or the length of what follows.
+// Appends a number, or the length of the data that follow.
 void AppendHead(unsigned char type, std::uint64_t number, std::string* bytes) {
   bytes->push_back(static_cast<char>(type + kEightBytes));
   bytes->append(8, '\0');
@@ -57,21 +57,21 @@ void AppendArray(const std::string& name, const std::vector<T>& values, std::str
   if (size > 0) bytes->append(reinterpret_cast<const char*>(values.data()), size);
 }
 
-// All that stands before the payload, with the payload's length in the last eight bytes.
+// Returns everything before the payload; the last eight bytes are the length of the payload.
 std::string FileHead(std::uint64_t length) {
   std::string bytes(1, kOpenMap);
   AppendText("format", &bytes);
   AppendText(kFormat, &bytes);
   AppendText("version", &bytes);
   AppendHead(kUnsigned, kCheckpointVersion, &bytes);
-  // Numbers stand in the machine's own order of bytes; its probe tells another machine's from them.
+  // Numbers have the byte order of the machine; the probe detects a machine with another order.
   AppendArray("probe", std::vector<double>{kProbe}, &bytes);
   AppendText("payload", &bytes);
   AppendHead(kBytes, length, &bytes);
   return bytes;
 }
 
-// And all that stands behind it.
+// Returns everything after the payload.
 std::string FileTail(std::string_view payload) {
   std::string bytes;
   AppendText("checksum", &bytes);
@@ -80,7 +80,8 @@ std::string FileTail(std::string_view payload) {
   return bytes;
 }
 
-// The payload of a file as a CheckpointWriter leaves it, where it is whole; else nothing.
+// Returns the payload of a file in the form that CheckpointWriter produces, or nothing if the file
+// is incomplete.
 std::string_view PayloadOf(std::string_view file) {
   const std::size_t around = FileHead(0).size() + FileTail({}).size();
   if (file.size() < around) return {};
@@ -91,7 +92,7 @@ std::string_view PayloadOf(std::string_view file) {
                                                                         : std::string_view();
 }
 
-// Why a file is none that PayloadOf() takes.
+// Returns the reason why PayloadOf() does not accept a file.
 Status WhatIsWrong(std::string_view bytes) {
   const json file = json::from_cbor(bytes, /*strict=*/true, /*allow_exceptions=*/false);
   if (!file.is_object() || file.value("format", json()) != kFormat) {
@@ -150,7 +151,7 @@ void CheckpointWriter::Array(const std::string& name, std::vector<std::uint8_t>*
 }
 
 void CheckpointWriter::Text(const std::string& name, std::string* text) {
-  // Paths need not be UTF-8, which CBOR asks of its texts.
+  // Paths may not be valid UTF-8, which CBOR requires for texts.
   AppendArray(name, std::vector<std::uint8_t>(text->begin(), text->end()), &bytes_);
 }
 
@@ -158,7 +159,7 @@ struct CheckpointReader::Impl {
   json root;
   std::vector<const json*> groups;
 
-  // The bytes of that name in the present group, or null.
+  // Returns the bytes with that name in the present group, or null.
   const std::vector<std::uint8_t>* Find(const std::string& name) const {
     const json* group = groups.back();
     if (group == nullptr) return nullptr;

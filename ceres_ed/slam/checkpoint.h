@@ -1,8 +1,9 @@
-// The state of a run as bytes, from which the run goes on as if it had never stopped.
+// The state of a run as bytes, from which the run continues as if it had never stopped.
 //
-// A class whose state outlives a frame has `void Exchange(CheckpointArchive* archive)`: one list of
-// its members, which saves them or loads them, so that the two can't drift apart. A new member that
-// the next frame depends on needs its line there, and a new kCheckpointVersion.
+// A class whose state is kept from frame to frame has a function `void Exchange(CheckpointArchive*
+// archive)`. It lists the members once, and the same list saves and loads them, so that the two
+// cannot differ. If a new member affects later frames, add it to this list and increase
+// kCheckpointVersion.
 #ifndef CERES_ED_SLAM_CHECKPOINT_H_
 #define CERES_ED_SLAM_CHECKPOINT_H_
 
@@ -25,27 +26,29 @@
 
 namespace ceres_ed {
 
-// Of what Exchange() lists; others are refused.
+// The version of the lists in Exchange(). Checkpoints of other versions are refused.
 inline constexpr int kCheckpointVersion = 3;
 
-// Named values on their way to the bytes or back. Loading never crashes: what is missing or of
-// another size leaves its target as it is and makes status() an error.
+// Saves or loads named values. Loading never crashes: if a value is missing or has another size,
+// its variable does not change and status() becomes an error.
 class CheckpointArchive {
  public:
   virtual ~CheckpointArchive() = default;
 
-  // Whether values go to the bytes; else they come from there.
+  // Returns true if values are saved, and false if they are loaded.
   virtual bool saving() const = 0;
-  // Names up to the matching Leave() are `group`'s own.
+  // The names up to the matching Leave() belong to `group`.
   virtual void Enter(const std::string& group) = 0;
   virtual void Leave() = 0;
 
-  // A list of numbers or bytes. Loading gives it the size that was saved.
+  // Exchange a list of numbers or bytes, or a text. Loading resizes a list to the size that was
+  // saved.
   virtual void Array(const std::string& name, std::vector<double>* values) = 0;
   virtual void Array(const std::string& name, std::vector<int>* values) = 0;
   virtual void Array(const std::string& name, std::vector<std::uint8_t>* values) = 0;
   virtual void Text(const std::string& name, std::string* text) = 0;
 
+  // Exchange a single value.
   void Value(const std::string& name, double* value) { Fixed<double>(name, value, 1); }
   void Value(const std::string& name, int* value) { Fixed<int>(name, value, 1); }
   void Value(const std::string& name, Eigen::Vector3d* value) {
@@ -55,8 +58,8 @@ class CheckpointArchive {
     Fixed<double>(name, value->coeffs().data(), 4);
   }
 
-  // One member of every row; `rows` has its final size already. `member(row)` is a reference to a
-  // double, an int, or a fixed-size vector or array of numbers or bytes.
+  // Exchanges one member of every row; `rows` must already have its final size. `member(row)` must
+  // return a reference to a double, an int, or a fixed-size vector or array of numbers or bytes.
   template <typename Row, typename Member>
   void Column(const std::string& name, std::vector<Row>* rows, Member member) {
     using Field = Span<std::remove_reference_t<std::invoke_result_t<Member, Row&>>>;
@@ -76,8 +79,8 @@ class CheckpointArchive {
     }
   }
 
-  // Rows as they lie in memory, which must have no gaps: for many that have a compact form already.
-  // Loading gives them the number that was saved.
+  // Exchange rows as they lie in memory, which must have no padding. They are meant for many rows
+  // that already have a compact form. Loading sets the number of rows to the number that was saved.
   template <typename T>
   void Rows(const std::string& name, std::vector<T>* rows) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -108,7 +111,7 @@ class CheckpointArchive {
     for (std::size_t r = 0; r < rows->size(); ++r) std::memcpy((*rows)[r], &bytes[r * size], size);
   }
 
-  // Ok, or what is wrong with the bytes; the first thing counts.
+  // Returns ok, or the first error that was found.
   const Status& status() const { return status_; }
 
  protected:
@@ -168,13 +171,13 @@ class CheckpointArchive {
   Status status_ = Status::Ok();
 };
 
-// Collects what is exchanged, as the bytes that it becomes: a large map is there but once more.
+// Collects the values as bytes. A large map is therefore in memory only twice.
 class CheckpointWriter : public CheckpointArchive {
  public:
   CheckpointWriter();
 
-  // Returns the bytes: CBOR, with a version and a checksum. Every group must have been left. Only
-  // once.
+  // Returns the bytes in the format CBOR, with a version and a checksum. Every group must have been
+  // left. Call it only once.
   std::string Finish();
 
   bool saving() const override { return true; }
@@ -187,15 +190,16 @@ class CheckpointWriter : public CheckpointArchive {
 
  private:
   std::string bytes_;
-  // Where the payload starts.
+  // The position at which the payload starts.
   std::size_t payload_at_ = 0;
   int depth_ = 0;
 };
 
-// Hands out what a CheckpointWriter has collected.
+// Returns the values that a CheckpointWriter has collected.
 class CheckpointReader : public CheckpointArchive {
  public:
-  // Error: no checkpoint, damaged, of another version. The sentence has no file name.
+  // Opens a checkpoint. It is an error if the bytes are not a checkpoint, are damaged, or have
+  // another version. The message has no file name.
   static StatusOr<std::unique_ptr<CheckpointReader>> Open(std::string_view bytes);
   ~CheckpointReader() override;
 

@@ -1,4 +1,5 @@
-// Deformable tracking and mapping: frame by frame, the camera and the tissue that it looks at.
+// Deformable tracking and mapping: estimates the camera and the tissue in front of it, frame by
+// frame.
 #ifndef CERES_ED_SLAM_SLAM_H_
 #define CERES_ED_SLAM_SLAM_H_
 
@@ -18,39 +19,42 @@ class CheckpointArchive;
 class DeformableMap;
 class EnergyRegistry;
 
-// Tracks and maps one sequence. Inside, lengths are in node spacings, so that nothing depends on
-// the scene's scale; what goes in and out is in metres.
+// Tracks and maps one sequence. Internally lengths are in node spacings, so that nothing depends on
+// the scale of the scene; inputs and outputs are in metres.
 class DeformableSlam {
  public:
-  // Error: bad options or intrinsics, unknown energies.
+  // Returns a new tracker. It is an error if an option or the intrinsics are invalid, or if an
+  // energy is unknown.
   static StatusOr<std::unique_ptr<DeformableSlam>> Create(const PinholeCamera& camera,
                                                           const SlamOptions& options,
                                                           const EnergyRegistry& registry);
   virtual ~DeformableSlam() = default;
 
-  // Takes the next frame in. Never fails: the status says what became of it.
+  // Processes the next frame. It never fails; the status of the report says what happened.
   virtual FrameReport Process(const SlamFrame& frame) = 0;
 
+  // Returns the map, in map units.
   virtual const DeformableMap& map() const = 0;
-  // Metres a map unit; 0 before the first frame.
+  // Returns the length of a map unit in metres; 0 before the first frame.
   virtual double unit() const = 0;
-  // The camera after the last frame, in map units.
+  // Returns the camera pose after the last frame, in map units.
   virtual const CameraPose& camera_from_map() const = 0;
-  // What the map holds, and what is kept of its nodes for the next frames.
+  // Returns the memory of the map and of the data that are kept of its nodes for the next frames.
   virtual MapMemory Memory() const = 0;
-  // Whether the last tracked frame had data on a node, or has added it.
+  // Returns whether the last tracked frame had data on a node, or has added the node.
   virtual bool HasData(int node) const = 0;
 
-  // Energies of LevelsOptions::energies that have not added a residual yet.
+  // Returns the energies of LevelsOptions::energies that have not added a residual yet.
   virtual std::vector<std::string> IdleEnergies() const = 0;
 
-  // Lets all nodes that were left behind follow, so that the map is what it would be had they moved
-  // along, to the tolerance of LazyOptions. Ahead of a look at the whole map.
+  // Moves all nodes that lazy Level II has not moved yet, so that the whole map is up to date
+  // within the tolerance of LazyOptions. Call it before the whole map is used.
   virtual void CatchUp() = 0;
 
-  // Saves all that the next frames depend on, or loads it in the place of what is there; of a run
-  // with the same camera and options. Either way what the solvers keep is dropped, so that the run
-  // that was saved and the one that is loaded go on alike, to the last bit.
+  // Saves everything on which the next frames depend, or loads it and replaces the present state. A
+  // checkpoint must come from a run with the same camera and options. In both cases data that the
+  // solvers keep are discarded, so that the saved run and the loaded run continue identically, to
+  // the last bit.
   virtual void Exchange(CheckpointArchive* archive) = 0;
 
  protected:

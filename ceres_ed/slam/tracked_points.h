@@ -1,4 +1,4 @@
-// Places that a user has named, followed along with the tissue.
+// Places that a user has named, which are tracked with the tissue.
 #ifndef CERES_ED_SLAM_TRACKED_POINTS_H_
 #define CERES_ED_SLAM_TRACKED_POINTS_H_
 
@@ -14,55 +14,58 @@
 
 namespace ceres_ed {
 
-// A place as it comes from a user.
+// A place that a user has named.
 struct NamedPoint {
   int id = 0;
-  // Metres, camera frame.
+  // The position in the camera frame, in metres.
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
 
-// Where a followed place is in a frame.
+// The position of a tracked place in a frame.
 struct TrackedPlace {
-  // Metres, camera frame of that frame.
+  // The position in the camera frame of that frame, in metres.
   Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();
-  // In the picture, facing the camera and not behind the map.
+  // Whether the place is in the picture, faces the camera and is not behind the map.
   bool visible = false;
 };
 
+// Options of TrackedPoints::Bind().
 struct TrackedPointsOptions {
-  // Farthest from the map's nearest point when they are bound, node spacings, > 0.
+  // The largest distance from the nearest map point at the time of binding, in node spacings, > 0;
+  // default 1.
   double max_distance = 1.0;
   VisibilityOptions visibility;
 };
 
-// Places bound to the map. Their bindings never change: they need no more of a frame than what the
-// map and the camera became.
+// Places that are bound to the map. Their bindings never change, so that a place follows from the
+// map and the camera after a frame.
 class TrackedPoints {
  public:
   TrackedPoints() = default;
 
-  // Returns `points`, given in the camera frame of the last frame that `slam` has taken in, bound
-  // to its map. Error: names the point that is too far from all that the camera sees of the map.
+  // Returns `points` bound to the map of `slam`. They must be given in the camera frame of the last
+  // processed frame. It is an error if a point is too far from the visible part of the map; the
+  // message names the point.
   static StatusOr<TrackedPoints> Bind(const std::vector<NamedPoint>& points,
                                       const DeformableSlam& slam,
                                       const PinholeCamera& camera,
                                       const TrackedPointsOptions& options = {});
 
-  // Returns where the points are now, in the order in which they were given.
+  // Returns the present positions of the points, in the given order.
   std::vector<TrackedPlace> Locate(const DeformableSlam& slam, const PinholeCamera& camera) const;
 
   int size() const { return static_cast<int>(points_.size()); }
   int id(int i) const { return points_[i].id; }
 
-  // Saves everything but the options, or loads it.
+  // Saves or loads everything except the options.
   void Exchange(CheckpointArchive* archive);
 
  private:
-  // Lengths in map units.
+  // One place; lengths are in map units.
   struct Point {
     int id = 0;
     Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();
-    // Of the map's nearest point.
+    // The normal of the nearest map point.
     Eigen::Vector3d normal_at_rest = Eigen::Vector3d::Zero();
     std::array<int, kMaxBoundNodes> nodes = {};
     std::array<double, kMaxBoundNodes> weights = {};

@@ -10,7 +10,8 @@
 namespace ceres_ed {
 namespace {
 
-// A pose found from scratch replaces a tracked one whose score it beats by this factor.
+// A pose that was found by a search replaces a tracked pose if its score is better by this factor,
+// and if it explains this share of the points of the frame before.
 constexpr double kClearlyBetter = 1.2;
 constexpr double kLeastOfBefore = 0.4;
 
@@ -95,7 +96,7 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
 void Tracker::Initialize(const SlamFrame& frame) {
   const ObservedSurface surface(frame.depth, camera_, 1.0, options_.surface);
   if (surface.num_valid() == 0) return;
-  // Nodes one spacing apart on a plane: each stands for 0.87 of a square of that side.
+  // The unit is one node spacing: on a plane each node has an area of 0.87 square spacings.
   unit_ = options_.node_spacing > 0.0
               ? options_.node_spacing
               : std::sqrt(VisibleArea(surface) / (0.87 * options_.nodes_in_view));
@@ -118,7 +119,7 @@ CameraPose Tracker::Predict(const SlamFrame& frame) const {
   return pose;
 }
 
-// What comes into view is brought up to date ahead of that.
+// Nodes that come into view are brought up to date before they are used.
 int Tracker::CatchUpInView(const CameraPose& camera_from_map) {
   const std::vector<int> near = map_.NodesNearView(ViewVolume(camera_from_map, camera_));
   return levels_->CatchUp(near, /*priors=*/nullptr, &map_).variable_nodes;
@@ -163,8 +164,8 @@ bool Tracker::FindCamera(const SlamFrame& frame,
   return true;
 }
 
-// A tracked pose that explains the frame badly is held against one that is looked for from scratch.
-// False when neither is to be believed.
+// Compares a tracked pose that explains the frame badly with a pose that is found by a search.
+// Returns false if neither can be accepted.
 bool Tracker::Confirm(const ObservedSurface& surface,
                       const CameraPose& before,
                       CameraPose* pose,
@@ -174,8 +175,8 @@ bool Tracker::Confirm(const ObservedSurface& surface,
   PoseQuality quality = JudgePose(visible_, *pose, surface, judge);
   if (!judge.Doubts(quality)) return true;
   const Relocalization other = Relocalize(map_, surface, before, VisibilityOptions(), judge);
-  // A flat piece of anything fits somewhere: what is found from scratch must show no weakness, and
-  // about as much of the map as was seen before.
+  // A flat piece of tissue fits in many places. A pose that was found by a search must therefore be
+  // good in every respect, and must explain about as much of the map as was seen before.
   const bool sound =
       !judge.Doubts(other.quality) && other.quality.points >= kLeastOfBefore * points_before_;
   if (sound && other.quality.Score() > kClearlyBetter * quality.Score()) {

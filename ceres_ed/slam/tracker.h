@@ -1,4 +1,5 @@
-// The tracker behind DeformableSlam: the stages of a frame, and what goes on from frame to frame.
+// The tracker behind DeformableSlam: the stages of a frame, and the state that is kept from frame
+// to frame.
 #ifndef CERES_ED_SLAM_TRACKER_H_
 #define CERES_ED_SLAM_TRACKER_H_
 
@@ -23,15 +24,16 @@
 
 namespace ceres_ed {
 
-// Returns `options` with what is set once for all stages handed on to each: the number of threads,
-// and whether the levels move the camera.
+// Returns `options` with settings that belong to all stages copied to each of them: the number of
+// threads, and whether the levels move the camera.
 SlamOptions WithSharedSettings(SlamOptions options);
 
+// The implementation of DeformableSlam.
 class Tracker final : public DeformableSlam {
  public:
   Tracker(const PinholeCamera& camera, const SlamOptions& options);
 
-  // Makes the levels. Error: an unknown energy or parameter.
+  // Creates the levels. It is an error if an energy or a parameter is unknown.
   Status AddLevels(const EnergyRegistry& registry);
 
   FrameReport Process(const SlamFrame& frame) override;
@@ -54,7 +56,7 @@ class Tracker final : public DeformableSlam {
                const CameraPose& before,
                CameraPose* pose,
                FrameReport* report);
-  // Returns the number of nodes that it has moved.
+  // Brings the nodes near the view up to date, and returns the number of nodes that were moved.
   int CatchUpInView(const CameraPose& camera_from_map);
   FrameObservations FollowSeen(const ObservedSurface& surface, FrameReport* report);
   void FollowHidden(bool catch_up, FrameReport* report);
@@ -71,20 +73,20 @@ class Tracker final : public DeformableSlam {
   PinholeCamera camera_;
   SlamOptions options_;
   std::unique_ptr<Levels> levels_;
-  // Null where no frame is verified.
+  // Null if no frame is verified.
   std::unique_ptr<BatchReference> batch_;
   DeformableMap map_;
   FeaturePoints features_;
   TissueMemory memory_;
   double unit_ = 0.0;
   std::vector<VisiblePoint> visible_;
-  // Metres. The map's frame is that of the first camera.
+  // In metres. The map frame is the frame of the first camera.
   CameraPose world_from_map_;
-  // Points on the observed surface in the last frame that was tracked.
+  // The number of points on the observed surface in the last tracked frame.
   int points_before_ = 0;
-  // Nodes that it started with.
+  // The number of nodes at the start of the last growth.
   int nodes_before_growth_ = 0;
-  // The last step of the camera, for the prediction of the next.
+  // The last motion of the camera, from which the next pose is predicted.
   CameraPose camera_step_;
 };
 

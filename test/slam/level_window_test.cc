@@ -17,7 +17,7 @@ using ::testing::UnorderedElementsAreArray;
 
 using Edge = std::tuple<int, int, double>;
 
-// Edges of the strip with weights that tell them apart.
+// Returns the graph of the strip with a different weight for each edge.
 DeformationGraph WeightedStrip(const TestProblem& problem) {
   DeformationGraph graph;
   for (const Eigen::Vector3d& g : problem.graph.positions()) graph.AddNode(g);
@@ -28,7 +28,7 @@ DeformationGraph WeightedStrip(const TestProblem& problem) {
   return graph;
 }
 
-// The window's edges by the map's nodes.
+// Returns the edges of the window, by the nodes of the map.
 std::vector<Edge> EdgesOf(const LevelWindow& window) {
   std::vector<Edge> edges;
   for (const GraphEdge& e : window.graph.edges()) {
@@ -64,7 +64,7 @@ TEST_F(LevelWindowTest, HasEveryEdgeOfItsVariableNodesOnce) {
 }
 
 TEST_F(LevelWindowTest, HoldsNeighboursAndWhatIsNamedAndNothingElse) {
-  // Node 4 is in the middle of the first two columns' neighbours 1, 3, 5, 7.
+  // Node 4 lies in the middle of its neighbours 1, 3, 5 and 7.
   const LevelWindow window = builder_.Build(graph_, state_, {4}, {16, 3});
   ASSERT_EQ(window.nodes.size(), 6u);
   EXPECT_EQ(window.nodes[0], 4);

@@ -9,7 +9,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-// 0 - 1 - 2 - 3 - 4, both ways.
+// Returns the chain 0 - 1 - 2 - 3 - 4 with edges in both directions.
 DeformationGraph Chain() {
   DeformationGraph graph;
   for (int j = 0; j < 5; ++j) graph.AddNode({1.0 * j, 0.0, 0.0});
@@ -41,7 +41,7 @@ TEST(PendingNodes, UnsettleTheNeighboursOfWhatMoved) {
   const DeformationGraph graph = Chain();
   PendingNodes pending(0.1);
   pending.NoteSolve(Window({1, 2}), graph, {0.3, 0.05}, /*one_step=*/false);
-  // 3 has moved by less than the tolerance beside 2; those that were solved are settled.
+  // Node 3 has moved by less than the tolerance beside node 2; the solved nodes are settled.
   EXPECT_THAT(pending.Unsettled(), ElementsAre(0));
   EXPECT_EQ(pending.change(0), 0.3);
   EXPECT_EQ(pending.change(1), 0.0);

@@ -30,7 +30,8 @@ BatchComparison BatchReference::Compare(const FrameObservations& observations,
   BatchComparison comparison;
   DeformableMap copy = map;
   const LevelReport report = batch_->SolveLevelOne(observations, /*priors=*/nullptr, &copy);
-  // Frames are seldom verified: what the solver keeps of a whole map is not worth its memory.
+  // Frames are rarely verified, so the data that the solver keeps for a whole map are not worth
+  // their memory.
   batch_->ForgetSolvers();
   if (report.status == SolveStatus::kFailed || !(report.energy > 0.0)) return comparison;
   comparison.done = true;
@@ -47,7 +48,7 @@ BatchComparison BatchReference::Compare(const FrameObservations& observations,
   const CameraPose& batch = copy.state().camera_from_map;
   constexpr double kDegreesPerRadian = 180.0 / M_PI;
   comparison.camera_deg = kDegreesPerRadian * ours.rotation.angularDistance(batch.rotation);
-  // Of the places where the two cameras are.
+  // The distance between the positions of the two cameras.
   comparison.camera_distance = (ours.Inverse().translation - batch.Inverse().translation).norm();
   return comparison;
 }

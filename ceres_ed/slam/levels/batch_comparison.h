@@ -1,4 +1,4 @@
-// How far the levels of a frame ended from the batch solve of the same problem.
+// Compares the result of the levels in a frame with the batch solution of the same problem.
 #ifndef CERES_ED_SLAM_LEVELS_BATCH_COMPARISON_H_
 #define CERES_ED_SLAM_LEVELS_BATCH_COMPARISON_H_
 
@@ -13,16 +13,17 @@
 
 namespace ceres_ed {
 
-// Solves the batch problem, every node and the camera at once, on a copy, until nothing moves any
-// more.
+// Solves the batch problem (all nodes and the camera together) on a copy of the map until it has
+// converged.
 class BatchReference {
  public:
-  // `options`: those of the levels that are held against it.
+  // Returns a reference solver. `options` are those of the levels that are compared with it.
   static StatusOr<std::unique_ptr<BatchReference>> Create(const LevelsOptions& options,
                                                           const EnergyRegistry& registry);
 
-  // `map`: as the levels left it, with nothing left behind; its node prior, and `observations`, are
-  // those of the frame's last Level I.
+  // Compares the result of the levels with the batch solution. `map` must be the map after the
+  // levels, with all nodes up to date. Its node prior, and `observations`, must be those of the
+  // last Level I of the frame.
   BatchComparison Compare(const FrameObservations& observations, const DeformableMap& map);
 
  private:

@@ -24,10 +24,10 @@ void PendingNodes::NoteSolve(const LevelWindow& window,
   solved_.Clear();
   for (int i = 0; i < window.num_variable; ++i) {
     solved_.Add(window.nodes[i]);
-    // A Gauss-Newton step from nearby leaves the square of what it corrects.
+    // A Gauss-Newton step near the solution leaves an error of the square of its correction.
     Set(window.nodes[i], one_step ? motion[i] * motion[i] : 0.0);
   }
-  // A node follows a mean of what pulls at it: the farthest motion counts, not their sum.
+  // A node follows a mean of its neighbours, so the largest motion counts and not their sum.
   farthest_.clear();
   for (int i = 0; i < window.num_variable; ++i) {
     const int node = window.nodes[i];

@@ -1,4 +1,5 @@
-// What has yet to follow: nodes whose surroundings moved since they were last solved.
+// Records which nodes still have to be moved because their surroundings moved since they were last
+// solved.
 #ifndef CERES_ED_SLAM_LEVELS_PENDING_NODES_H_
 #define CERES_ED_SLAM_LEVELS_PENDING_NODES_H_
 
@@ -16,30 +17,34 @@ namespace ceres_ed {
 
 class CheckpointArchive;
 
-// For each node a bound on how far what pulls at it has moved since it was solved: the farthest
-// motion among its neighbours, summed over the solves that it wasn't part of. Lengths are in map
-// units; a node's motion is |dt| + |dA|, which is how far it throws a neighbour one spacing away.
+// For each node a bound on the change of the forces on it since it was last solved: the largest
+// motion among its neighbours, summed over the solves in which the node did not take part. Lengths
+// are in map units. The motion of a node is |dt| + |dA|, which is the displacement that it imposes
+// on a neighbour at a distance of one spacing.
 class PendingNodes {
  public:
-  // Nodes above `tolerance` > 0 are unsettled.
+  // A node with a change above `tolerance` > 0 is unsettled.
   explicit PendingNodes(double tolerance) : tolerance_(tolerance) {}
 
   double tolerance() const { return tolerance_; }
+  // Returns the change of a node, in map units.
   double change(int node) const {
     return node < static_cast<int>(changes_.size()) ? changes_[node] : 0.0;
   }
 
-  // What pulls at `node` has changed by as much as moves it by `change`.
+  // Adds `change` to a node: the forces on it have changed so much that it would move by this
+  // distance.
   void Raise(int node, double change);
 
-  // The variable nodes of `window` were solved and moved by `motion`, one entry each. That settles
-  // them, up to what is left by `one_step` of Gauss-Newton. Their neighbours outside follow them.
+  // Records that the variable nodes of `window` were solved and moved by `motion` (one entry each).
+  // They become settled, except for the error that `one_step` of the Gauss-Newton method leaves.
+  // Their neighbours outside the window receive their motion.
   void NoteSolve(const LevelWindow& window,
                  const DeformationGraph& graph,
                  const std::vector<double>& motion,
                  bool one_step);
 
-  // Unsettled nodes, by number.
+  // Returns the unsettled nodes in ascending order.
   const std::vector<int>& Unsettled();
 
   std::size_t HeapBytes() const {
@@ -54,9 +59,9 @@ class PendingNodes {
 
   double tolerance_;
   std::deque<double> changes_;
-  // Every unsettled node, and some that no longer are.
+  // Every unsettled node, and some that are settled again.
   NodeSet listed_;
-  // For NoteSolve().
+  // Temporary data of NoteSolve().
   NodeSet solved_;
   std::vector<std::pair<int, double>> farthest_;
 };

@@ -1,4 +1,4 @@
-// The observations of a frame over a window of the graph: what energies look at.
+// The observations of a frame over a window of the graph, in the form that energies use.
 #ifndef CERES_ED_SLAM_LEVELS_WINDOW_OBSERVATIONS_H_
 #define CERES_ED_SLAM_LEVELS_WINDOW_OBSERVATIONS_H_
 
@@ -14,16 +14,16 @@
 
 namespace ceres_ed {
 
-// Points, bindings and priors with the window's own indices.
+// Points, bindings and priors with the indices of the window.
 class WindowObservations {
  public:
-  // `windows` has just built `window`.
+  // `windows` must have built `window` as its last one.
   WindowObservations(const FrameObservations& observations,
                      const LevelWindowBuilder& windows,
                      const DeformableMap& map,
                      const LevelWindow& window);
 
-  // Looks at this object, which must outlive it.
+  // Returns a context that refers to this object, which must outlive it.
   EnergyContext Context(const LevelWindow& window) const;
 
   int num_planes() const { return static_cast<int>(planes_.size()); }

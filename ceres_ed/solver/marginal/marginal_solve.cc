@@ -7,16 +7,17 @@
 namespace ceres_ed {
 namespace {
 
-// The eliminated nodes are damped by this share of what Level I is, which is little more than
-// rounding. The soft modes of a large hidden part are far below the damping of a single node: batch
-// solves, which damp all alike, take many steps to follow them.
+// The damping of the eliminated nodes as a share of that of Level I; it is little more than
+// rounding. The soft modes of a large hidden part have much less curvature than the damping of a
+// single node, so that batch solves, which damp all nodes equally, need many steps to follow them.
 constexpr double kShareOfDamping = 1e-8;
-// An elimination with more than this many times the damping that is wanted is made again.
+// If an elimination has more than this factor of the wanted damping, it is repeated.
 constexpr double kMaxExcessDamping = 4.0;
 constexpr double kMoreDamping = 8.0;
-// Steps of Level I where a single one was refused: it damps itself, and says when none is valid.
+// The number of steps of Level I after a single step was refused. Level I then adapts its own
+// damping, and reports if no step is valid.
 constexpr int kRetries = 6;
-// Decreases below this share of the energy are rounding.
+// Decreases below this share of the energy are rounding errors.
 constexpr double kRounding = 1e-13;
 
 double SquaredDistance(const DeformationState& a, const DeformationState& b) {
@@ -58,7 +59,8 @@ MarginalSolve::MarginalSolve(const MarginalProblem& problem,
   level_two_.num_variable_nodes = static_cast<int>(marginalization->eliminated_nodes().size());
 }
 
-// Factorises; where hidden nodes hang on nothing, as an island does, damping has to hold them.
+// Factorises the linearisation. If hidden nodes are not connected to other nodes (an island), more
+// damping is needed to determine them.
 bool MarginalSolve::Eliminate() {
   constexpr double kMostDamping = 1e3;
   for (; damping_ <= kMostDamping;
@@ -68,7 +70,8 @@ bool MarginalSolve::Eliminate() {
   return false;
 }
 
-// Brings the elimination to the present state: by its gradient alone where that will do.
+// Brings the elimination to the present state. If this is accurate enough, only the gradient is
+// updated.
 bool MarginalSolve::Prepare(std::string* error) {
   if (is_prepared_) return true;
   const Timer timer;
@@ -109,8 +112,8 @@ bool MarginalSolve::IsDone(SolveSummary* summary) const {
   return false;
 }
 
-// A step of Level I over camera and PR nodes, with the prior in place of the rest. False when it
-// failed.
+// Does a step of Level I over camera and PR nodes, with the prior in place of the eliminated
+// residuals. Returns false if it failed.
 bool MarginalSolve::SolveLevelOne(DeformationState* candidate, SolveSummary* summary) {
   config_.extra_residuals.clear();
   if (!marginalization_->seam_nodes().empty()) {
@@ -121,7 +124,7 @@ bool MarginalSolve::SolveLevelOne(DeformationState* candidate, SolveSummary* sum
       std::min(level_one_steps_, options_.max_iterations - level_one_.iterations);
   options.initial_trust_region_radius = region_.radius();
   options.time_limit_s = std::max(1e-3, options_.time_limit_s - problem_.timer->Seconds());
-  // Asked ahead of every step.
+  // The caller's request to stop is checked before every step.
   if (level_one_steps_ == 1) options.should_stop = nullptr;
   SolveSummary step;
   const bool solved =
@@ -136,7 +139,8 @@ bool MarginalSolve::SolveLevelOne(DeformationState* candidate, SolveSummary* sum
   level_one_moved_ = level.final_cost < level.initial_cost;
   level_one_converged_ = step.status == SolveStatus::kConverged;
   if (energy_known_) return true;
-  // The full energy is that of Level I with the residuals themselves in place of their prior.
+  // The full energy is the energy of Level I with the eliminated residuals themselves in place of
+  // their prior.
   const double prior =
       config_.extra_residuals.empty() ? 0.0 : marginalization_->PriorValue(*state_);
   initial_energy_ = level.initial_cost - prior + marginalization_->energy();
@@ -188,8 +192,9 @@ MarginalSolve::Step MarginalSolve::TakeStep(SolveSummary* summary) {
   return outcome;
 }
 
-// Takes the candidate where the full energy follows what the linearised one promises: `rest` plus
-// the energy of the eliminated residuals, and that plus their prior.
+// Accepts the candidate if the full energy decreases as the linearised energy predicts. The full
+// energy is `rest` plus the energy of the eliminated residuals; the linearised energy is `rest`
+// plus their prior.
 MarginalSolve::Step MarginalSolve::Judge(double rest,
                                          double prior,
                                          double eliminated,
@@ -198,8 +203,8 @@ MarginalSolve::Step MarginalSolve::Judge(double rest,
   const double decrease = energy_ - (rest + eliminated);
   const double quality = decrease / predicted;
   if (!(predicted > 0.0) || !TrustRegion::Accepts(quality)) {
-    // Where no more than the tolerance is promised there is nothing left to gain, unless damping
-    // has made it so little.
+    // If the predicted decrease is within the tolerance, the solve has converged, unless damping is
+    // the reason why it is so small.
     const double least = damping_ > least_damping_ ? kRounding : options_.function_tolerance;
     const bool is_least = std::abs(predicted) <= std::max(kRounding, least) * energy_;
     return is_least && !LevelOneWasRefused() ? Step::kConverged : Step::kRejected;
@@ -214,15 +219,15 @@ MarginalSolve::Step MarginalSolve::Judge(double rest,
     region_.Shrink();
     return Step::kAccepted;
   }
-  // More than one step has found its own radius.
+  // A Level I with more than one step has adapted its own radius.
   if (level_one_moved_ && level_one_steps_ == 1) {
     region_.Grow(quality);
   }
   return std::abs(decrease) <= tolerance ? Step::kConverged : Step::kAccepted;
 }
 
-// After a step that was no good. What has grown old is made anew first; then the whole step is
-// damped more, Level I and the nodes that follow it alike.
+// Reacts to a refused step. If the linearisation is not fresh, it is renewed first; otherwise the
+// whole step, of Level I and of the eliminated nodes, is damped more.
 void MarginalSolve::Refuse() {
   const Timer timer;
   if (LevelOneWasRefused()) {
@@ -239,6 +244,8 @@ void MarginalSolve::Refuse() {
 
 void MarginalSolve::Iterate(SolveSummary* summary) {
   int invalid_steps = 0;
+  // Each iteration is a step of Level I followed by the back-substitution (Eq. 18 to 21), judged by
+  // the full energy.
   while (!IsDone(summary)) {
     const Step step = TakeStep(summary);
     if (step == Step::kFailed) return;

@@ -10,10 +10,10 @@ namespace {
 
 using NodeVector = Eigen::Matrix<double, kNodeSize, 1>;
 
-// Damping of a parameter that nothing curves, relative to the mean of all.
+// The smallest damping, relative to the mean; it applies to parameters without curvature.
 constexpr double kMinRelativeDiagonal = 1e-6;
 
-// Nodes of the residuals that `mask` has, or has not; ascending.
+// Returns the nodes of the residuals that are in `mask` (or that are not), in ascending order.
 std::vector<int> NodesOf(const std::vector<SelectedResidual>& residuals,
                          const std::vector<char>& mask,
                          bool in_mask) {
@@ -43,7 +43,7 @@ Status CheckNoCamera(const ProblemBuilder& builder,
   return Status::Ok();
 }
 
-// Adds the parameters of some nodes, one behind the other.
+// Writes the parameters of some nodes one after the other, starting at `first_row`.
 void AppendNodes(const DeformationState& state,
                  const std::vector<int>& nodes,
                  Eigen::Index first_row,
@@ -54,7 +54,8 @@ void AppendNodes(const DeformationState& state,
   }
 }
 
-// T T^T - shift I for a lower triangular T, by panels of its columns so that its zeros cost little.
+// Returns T T^T - shift I for a lower triangular T. It works on panels of columns, so that the
+// zeros of T cost little time.
 Eigen::MatrixXd UndoFactor(const Eigen::MatrixXd& T, double shift) {
   constexpr Eigen::Index kPanel = 48;
   const Eigen::Index n = T.rows();
@@ -112,7 +113,7 @@ std::vector<Marginalization::Weighing> Marginalization::WeighingsOf(
     const ProblemBuilder& builder, const std::vector<SelectedResidual>& residuals) {
   std::vector<Weighing> weighings;
   for (const SelectedResidual& residual : residuals) {
-    // They come term by term.
+    // The residuals are in the order of their terms.
     if (weighings.empty() || weighings.back().term != residual.term) {
       weighings.push_back(
           {residual.term, 0.0, residual.term < 0 ? LossSpec() : builder.loss(residual.term)});
@@ -126,7 +127,7 @@ void Marginalization::UpdateStructure() {
   has_factor_ = false;
   prior_.reset();
   pairs_ = equations_->BlockPairs();
-  // The factor refers to the structure: it goes first.
+  // The factor refers to the structure, so it is destroyed first.
   cholesky_.reset();
   structure_ = std::make_unique<BlockStructure>(equations_->BlockSizes(), pairs_);
   if (!eliminated_.empty()) {
@@ -149,9 +150,9 @@ bool Marginalization::Eliminate(double damping) {
   CHECK(has_values_ && cholesky_ != nullptr) << "Linearize comes first, with nodes to eliminate";
   const int num_rows = num_eliminated_rows();
   Eigen::VectorXd diagonal = structure_->Diagonal(values_);
-  // The Schur complement is only semi-definite, a rigid motion of the seam costs nothing. With
-  // this on its diagonal it has a factor whatever it is, and rounding is no larger than in the
-  // difference that it is.
+  // The Schur complement is only semi-definite, because a rigid motion of the seam changes no
+  // residual. With this shift on its diagonal it always has a factor, and the rounding error is not
+  // larger than in the difference that defines the complement.
   shift_ =
       seam_.empty() ? 0.0 : std::max(diagonal.tail(diagonal.size() - num_rows).maxCoeff(), 1e-300);
   const double floor = std::max(kMinRelativeDiagonal * diagonal.head(num_rows).mean(), 1e-300);
@@ -177,7 +178,8 @@ bool Marginalization::Eliminate(double damping) {
   return true;
 }
 
-// With L^-1 g = (y_f, y_s): g_f^T Lambda_ff^-1 g_f = |y_f|^2, and L_ss y_s = g_s - L_sf y_f.
+// Eq. 20 for the right side. With L^-1 g = (y_f, y_s), g_f^T Lambda_ff^-1 g_f = |y_f|^2 and L_ss
+// y_s = g_s - L_sf y_f.
 Eigen::VectorXd Marginalization::ReduceGradient(double* constant) {
   reduced_gradient_ = cholesky_->SolveLower(gradient_);
   *constant = energy_ - 0.5 * reduced_gradient_.head(num_eliminated_rows()).squaredNorm();
@@ -240,7 +242,8 @@ double Marginalization::PriorValue(const DeformationState& state) const {
   return prior_->quadratic().Value(SeamDifference(state));
 }
 
-// L^T (x_f, d) = (-y_f, L_ss^T d): the seam's part of the solution is d itself.
+// Eq. 21 through the factor: L^T (x_f, d) = (-y_f, L_ss^T d). The seam's part of the solution is d
+// itself.
 void Marginalization::BackSubstitute(DeformationState* state) const {
   CHECK(has_factor_) << "Eliminate comes first";
   Eigen::VectorXd rhs = -reduced_gradient_;

@@ -20,80 +20,84 @@
 
 namespace ceres_ed {
 
-// Eliminates nodes f from the linearised energy. Of the residuals that touch them, only their
-// minimum over f is left: a quadratic prior on the seam s, the nodes that share a residual with
-// them. With Lambda = J^T J and g = J^T r of these residuals, both corrected for the losses:
+// Eliminates nodes f from the linearised energy. The residuals that touch these nodes are replaced
+// by their minimum over f. This minimum is a quadratic prior on the seam s, which are the other
+// nodes of these residuals. With Lambda = J^T J and g = J^T r of these residuals, both corrected
+// for the losses,
 //   prior(x_s) = min over x_f = c + (g_s - Lambda_sf Lambda_ff^-1 g_f)^T d
-//                + d^T (Lambda_ss - Lambda_sf Lambda_ff^-1 Lambda_fs) d / 2,  d = x_s - x_s0
-// and what the eliminated nodes make of any x_s follows by back-substitution (Eq. 21):
+//                + d^T (Lambda_ss - Lambda_sf Lambda_ff^-1 Lambda_fs) d / 2,  d = x_s - x_s0.
+// For any x_s, the eliminated nodes follow by back-substitution (Eq. 21):
 //   x_f = x_f0 - Lambda_ff^-1 (g_f + Lambda_fs d)
 //
-// Nothing is formed that has a column for each unknown of the seam: Lambda is factorised with the
-// seam's blocks last, and the factor ends in that of the prior.
+// No matrix is formed that has a column for each unknown of the seam: Lambda is factorised with the
+// blocks of the seam last, so that the factor ends with the factor of the prior.
 //
-// Order of calls: SetProblem; Linearize; Eliminate; then prior and back-substitution as often as
-// wanted. Update moves the linearisation point and keeps the factor.
+// Call SetProblem(), then Linearize(), then Eliminate(); after that the prior and the
+// back-substitution may be used any number of times. Update() moves the linearisation point and
+// keeps the factor.
 class Marginalization {
  public:
-  // Takes the residuals that touch the variable nodes of `config`, the nodes to eliminate. Its
-  // eliminated nodes and extra residuals are those of an earlier elimination, if any: a prior is a
-  // residual like any other. Keeps structure and symbolic factor where the residuals join the same
-  // nodes as before, and the factor, for Update, where they have the same weights and losses, too.
-  // The builder must outlive what follows.
-  // Error: a residual joins a node to the camera.
+  // Takes the residuals that touch the variable nodes of `config`, which are the nodes to
+  // eliminate. The eliminated nodes and extra residuals of `config` are those of an earlier
+  // elimination, if there was one: a prior is a residual like any other. The structure and the
+  // symbolic factor are kept if the residuals couple the same nodes as before. If they also have
+  // the same weights and losses, the factor is kept for Update(). The builder must outlive the
+  // following calls. It is an error if a residual couples a node to the camera.
   Status SetProblem(const ProblemBuilder& builder, const ProblemConfig& config);
 
-  // Ascending. Nodes that no residual touches are left out: nothing says where they go.
+  // Return the eliminated nodes and the nodes of the seam, in ascending order. Nodes that no
+  // residual touches are left out, because nothing determines them.
   const std::vector<int>& eliminated_nodes() const { return eliminated_; }
   const std::vector<int>& seam_nodes() const { return seam_; }
 
-  // Works out Lambda and g at `state`. False, and a factor that was there is lost, when a residual
-  // can't be evaluated.
+  // Computes Lambda and g at `state`. Returns false if a residual cannot be evaluated. In both
+  // cases the previous factor is lost.
   bool Linearize(const DeformationState& state, int num_threads);
 
-  // Factorises what Linearize has left, with `damping` >= 0 times the diagonal of Lambda_ff added
-  // to it (Levenberg and Marquardt). False when that isn't positive definite.
+  // Factorises the result of Linearize(), with `damping` >= 0 times the diagonal of Lambda_ff added
+  // to it (Levenberg and Marquardt). Returns false if the matrix is not positive definite.
   bool Eliminate(double damping);
 
-  // Whether there is a factor over the present nodes.
+  // Returns whether there is a factor for the present nodes.
   bool has_factor() const { return has_factor_; }
+  // Returns the damping of the last elimination.
   double damping() const { return damping_; }
-  // Factorisations so far.
+  // Returns the number of factorisations so far.
   int num_eliminations() const { return num_eliminations_; }
-  // Whether the factor is that of the last linearisation and not of an earlier one.
+  // Returns whether the factor belongs to the last linearisation, and not to an earlier one.
   bool is_fresh() const { return is_fresh_; }
 
-  // Moves the linearisation point to `state` and works out energy and g anew, of the residuals as
-  // they are now; Lambda and its factor stay. False when a residual can't be evaluated; the prior
-  // is then as it was. There must be a factor.
+  // Moves the linearisation point to `state` and computes the energy and g of the present
+  // residuals; Lambda and its factor do not change. Returns false if a residual cannot be
+  // evaluated; the prior is then unchanged. There must be a factor.
   bool Update(const DeformationState& state, int num_threads);
 
-  // The largest change of an entry of A_j since Lambda was worked out, over the eliminated nodes.
-  // E_rot is quadratic in A_j, and t_j enters no built-in prior but linearly: this is what Lambda
-  // depends on.
+  // Returns the largest change of an entry of A_j, over the eliminated nodes, since Lambda was
+  // computed. Lambda depends on these changes only: E_rot is not linear in A_j, whereas t_j enters
+  // all built-in priors linearly.
   double LargestChange(const DeformationState& state) const;
 
-  // Of the residuals, not linearised, at the linearisation point.
+  // Returns the energy of the residuals themselves, not linearised, at the linearisation point.
   double energy() const { return energy_; }
-  // The same at any state; false when a residual can't be evaluated.
+  // Computes the same energy at any state. Returns false if a residual cannot be evaluated.
   bool EvaluateEnergy(const DeformationState& state, int num_threads, double* energy) const;
 
-  // Largest entry of g_f.
+  // Returns the largest absolute entry of g_f.
   double LargestGradient() const;
 
-  // On the seam nodes, in their order. Changes with Eliminate and Update; one object as long as the
-  // seam is the same.
+  // Returns the prior on the seam nodes, in their order. Eliminate() and Update() change it; the
+  // object remains the same as long as the seam is the same.
   const QuadraticCost& prior() const { return *prior_; }
-  // It, as a residual for a problem without the eliminated nodes.
+  // Returns the prior as a residual for a problem without the eliminated nodes.
   ExtraResidual PriorResidual() const;
-  // Its value at a state.
+  // Returns the value of the prior at a state.
   double PriorValue(const DeformationState& state) const;
 
-  // Puts the eliminated nodes where the linearised energy is least for the seam of `state`.
+  // Moves the eliminated nodes to the minimum of the linearised energy for the seam of `state`.
   void BackSubstitute(DeformationState* state) const;
 
  private:
-  // How the residuals of a term are weighed.
+  // The weights and the loss of the residuals of one term.
   struct Weighing {
     int term = -1;
     double sum = 0.0;
@@ -106,7 +110,7 @@ class Marginalization {
   int num_eliminated_rows() const;
   Eigen::VectorXd SeamDifference(const DeformationState& state) const;
   void UpdateStructure();
-  // The prior's gradient and constant, from energy_ and gradient_.
+  // Computes the gradient and the constant of the prior from energy_ and gradient_.
   Eigen::VectorXd ReduceGradient(double* constant);
 
   ProblemConfig config_;
@@ -116,14 +120,14 @@ class Marginalization {
   std::vector<BlockPair> pairs_;
   std::vector<Weighing> weighings_;
   std::unique_ptr<BlockStructure> structure_;
-  // Solving uses its work space.
+  // The factor also contains the memory in which systems are solved.
   std::unique_ptr<BlockCholesky> cholesky_;
 
-  // Of the linearisation: eliminated nodes first, then the seam.
+  // The linearisation: eliminated nodes first, then the seam.
   double energy_ = 0.0;
   std::vector<double> values_;
   Eigen::VectorXd gradient_;
-  // Unknowns at the linearisation point, and where Lambda was worked out.
+  // The unknowns at the linearisation point, and at the point where Lambda was computed.
   Eigen::VectorXd origin_;
   Eigen::VectorXd factor_origin_;
   bool has_values_ = false;
@@ -132,7 +136,8 @@ class Marginalization {
   bool is_fresh_ = false;
   double damping_ = 0.0;
   int num_eliminations_ = 0;
-  // The seam's part of the factor, of the prior's Hessian plus `shift_` on its diagonal.
+  // The seam's part of the factor. It is the factor of the prior's Hessian plus `shift_` on its
+  // diagonal.
   Eigen::MatrixXd seam_factor_;
   double shift_ = 0.0;
   // L^-1 g.
