@@ -10,9 +10,10 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kPatientIterations = 3;
-// Noise counts in hundredths of the source's diagonal.
+// The unit of the noise is a hundredth of the source's diagonal.
 constexpr double kPerLength = 100.0;
-// Of all samples, what the steps before the last one match, and the levels before the last one.
+// All steps before the last one match 1 / kShareOfSteps of the samples, and all levels before the
+// last one match 1 / kShareOfLevels of them.
 constexpr int kShareOfSteps = 2;
 constexpr int kShareOfLevels = 8;
 
@@ -67,7 +68,7 @@ class NonrigidLoop {
   bool initial_energy_known_ = false;
 };
 
-// True, with the reason in the result, when the fit has to end now.
+// Returns true, with the reason in the result, if the fit must end now.
 bool NonrigidLoop::Stopped() {
   if (options_.should_stop && options_.should_stop()) {
     result_->status = SolveStatus::kInterrupted;
@@ -118,7 +119,7 @@ SolveSummary NonrigidLoop::Solve(int max_iterations) {
   return summary;
 }
 
-// The energy with nothing deformed, weighted as it is at the end: what final_energy compares with.
+// Computes the energy without deformation with the final weights, for comparison with final_energy.
 void NonrigidLoop::MeasureInitialEnergy() {
   initial_energy_known_ = true;
   problem_->SetStiffness(1.0);
@@ -131,7 +132,7 @@ NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
   if (target_ != nullptr) Match();
   if (!initial_energy_known_ && plan_.is_last) MeasureInitialEnergy();
   SolveSummary summary = Solve(max_iterations);
-  // A step that is refused only shrinks the trust region: it doesn't mean that nothing moves.
+  // A refused step only reduces the trust region; it does not mean that nothing moves.
   if (summary.status == SolveStatus::kMaxIterations &&
       !(summary.final_energy < summary.initial_energy)) {
     summary = Solve(kPatientIterations);
@@ -195,7 +196,7 @@ std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
       fit.target != nullptr ? schedule.initial_stiffness + of_noise : 1.0;
   const double final_stiffness = fit.target != nullptr ? schedule.final_stiffness + of_noise : 1.0;
   const int coarse_levels = levels - 1;
-  // A level starts with the stiffness that the one before ended with.
+  // A level starts with the final stiffness of the level before it.
   const int coarse_steps =
       coarse_levels > 0 ? std::max(1, schedule.coarse_steps / coarse_levels) : 0;
   const int ratios =

@@ -1,4 +1,4 @@
-// Alternates matching and solving, from stiff to soft.
+// Alternates between matching and solving, with decreasing stiffness.
 #ifndef CERES_ED_REGISTRATION_NONRIGID_LOOP_H_
 #define CERES_ED_REGISTRATION_NONRIGID_LOOP_H_
 
@@ -14,33 +14,34 @@ namespace ceres_ed {
 
 // What one level of the schedule does.
 struct LevelPlan {
-  // E_rot and E_reg at the first and at the last step, as multiples of their weights.
+  // The factors of the weights of E_rot and E_reg in the first and in the last step.
   double first_stiffness = 1.0;
   double last_stiffness = 1.0;
+  // The number of steps, each with its own stiffness.
   int steps = 1;
-  // The others end before anyone asks for their energies.
+  // Whether this is the last level; the energies of the others are not reported.
   bool is_last = true;
-  // Of the data loss, as a multiple of the robust standard deviation of the residuals.
+  // The width of the data loss, as a multiple of the robust standard deviation of the residuals.
   double loss_width = 10.0;
-  // Of the normals of a pair, degrees.
+  // The largest angle between the normals of a pair, in degrees.
   double max_angle_deg = 75.0;
-  // Points of each surface that are matched, and in the last step.
+  // The number of points of each surface that are matched, and that number in the last step.
   int samples = 1000;
   int last_samples = 1000;
-  // What of the whole fit is done before and after this level, in [0, 1].
+  // The progress of the whole fit before and after this level, in [0, 1].
   double progress_begin = 0.0;
   double progress_end = 1.0;
 };
 
-// Fewer points of a surface than these are not matched unless it has no more.
+// At least this many points of a surface are matched, or all if it has fewer.
 inline constexpr int kMinCoarseSamples = 1000;
 
-// The plans of `levels` >= 1 levels of `fit`, coarse to fine.
+// Returns the plans of the `levels` >= 1 levels of `fit`, from coarse to fine.
 std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels);
 
-// Moves `state` over `graph` so that the warped source follows the target. `problem` has the
+// Moves `state` on `graph` so that the warped source follows the target. `problem` contains the
 // energies of the fit. Fills in status, message, point_relevant, matches, energies, iterations and
-// times of `result`. The status stays failed, interrupted or time_limit where the loop ended early.
+// times of `result`. The status is failed, interrupted or time_limit if the loop ended early.
 void RunNonrigidLoop(const UnitFit& fit,
                      const BuiltGraph& graph,
                      const LevelPlan& plan,

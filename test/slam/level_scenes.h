@@ -1,4 +1,5 @@
-// A strip half of which is seen, as a map with observations and as problems over the whole graph.
+// A strip of which one half is seen, as a map with observations and as problems over the whole
+// graph.
 #ifndef CERES_ED_TEST_SLAM_LEVEL_SCENES_H_
 #define CERES_ED_TEST_SLAM_LEVEL_SCENES_H_
 
@@ -21,26 +22,27 @@
 
 namespace ceres_ed {
 
-// 14 x 4 nodes (or another number of columns), deformed a little, of whose cells the first three
-// columns are seen: 16 PR nodes. Targets are off by more than what the losses give way at.
+// 14 x 4 nodes (or another number of columns) with a small deformation. The first three columns of
+// cells are seen, which gives 16 PR nodes. The targets are farther away than the widths of the
+// losses.
 struct LevelScene {
   explicit LevelScene(int columns = 14) : problem(MakeTestProblem(Options(columns))) {
     const DeformationState start = RandomState(problem, 0.05, 9);
     for (int j = 0; j < problem.graph.num_nodes(); ++j) {
       const Eigen::Vector3d g = problem.graph.position(j);
       map.AddNode(g, g + NodeTranslation(start.node(j)), NodeAffine(start.node(j)));
-      // Where a node is thought to be isn't where it is.
+      // The expected position of a node differs from its present one.
       SetTranslation(&map, j, NodeTranslation(start.node(j)) + Eigen::Vector3d(0.02, -0.01, 0.03));
       node_prior.push_back(map.node_prior(j));
     }
-    // One of each pair.
+    // One edge of each pair.
     for (const GraphEdge& edge : problem.graph.edges()) {
       if (edge.from < edge.to) map.Connect(edge.from, edge.to);
     }
     map.SetCamera(start.camera_from_map);
     observations.camera_prior = start.camera_from_map;
     observations.planes = Take(problem.correspondences);
-    // Every third one once more, point to point.
+    // Every third observation is also used point to point.
     for (std::size_t k = 0; k < problem.correspondences.size(); k += 3) {
       landmarks.push_back(problem.correspondences[k]);
     }
@@ -72,7 +74,7 @@ struct LevelScene {
     return taken;
   }
 
-  // The terms of LevelsOptions over the whole graph, at the present state.
+  // Returns a problem over the whole graph with the terms of LevelsOptions, at the present state.
   std::unique_ptr<ProblemBuilder> WholeProblem(const LevelsOptions& options) const {
     const EnergyRegistry registry = BuiltinEnergies();
     EnergyContext context = problem.Context();
@@ -93,7 +95,7 @@ struct LevelScene {
     add("rotation", options.rotation_weight);
     add("regularization", options.regularization_weight);
     add("node_prior", options.node_prior_weight);
-    // Data count per PR node: 16 of them.
+    // The weight of the data is per PR node, of which there are 16.
     const double data = options.plane_weight * 16.0 / problem.correspondences.size();
     add("point_to_plane", data, {LossType::kTukey, observations.plane_width});
     add("landmark", data * options.feature_weight, {LossType::kTukey, observations.feature_width});
@@ -109,11 +111,11 @@ struct LevelScene {
   std::vector<Correspondence> landmarks;
   DeformableMap map;
   std::vector<Eigen::Vector3d> node_prior;
-  // Bindings are those of `problem`.
+  // The bindings refer to `problem`.
   FrameObservations observations;
 };
 
-// The largest difference of a parameter; 1 at least where they have not as many.
+// Returns the largest difference of a parameter, or at least 1 if the numbers of parameters differ.
 inline double LargestDifference(const DeformationState& a, const DeformationState& b) {
   const std::vector<double> x = AllParameters(a);
   const std::vector<double> y = AllParameters(b);
@@ -122,8 +124,9 @@ inline double LargestDifference(const DeformationState& a, const DeformationStat
   return largest;
 }
 
-// The same steps from the same start stay together to rounding, whereas how far a search gets is
-// known no better than to the root of it: three steps, whatever they gain.
+// Returns options for exactly three steps, whatever they gain. The same steps from the same start
+// are equal up to rounding, whereas the end of a converged search is known only to the square root
+// of the rounding error.
 inline LevelsOptions ThreeSteps(int rings, SeamEdges seam_edges) {
   LevelsOptions options;
   options.strategy.rings = rings;
@@ -135,7 +138,7 @@ inline LevelsOptions ThreeSteps(int rings, SeamEdges seam_edges) {
   return options;
 }
 
-// Solves as far as the digits of the energy allow.
+// Returns options with which a solve goes as far as the digits of the energy allow.
 inline LevelsOptions ExactLevels(int rings, SeamEdges seam_edges) {
   LevelsOptions options;
   options.strategy.rings = rings;

@@ -1,4 +1,4 @@
-// Marginalisation against dense linear algebra on what Ceres linearises.
+// Compares the marginalisation with dense linear algebra on the linearisation of Ceres.
 #include <ceres_ed/solver/marginal/marginalization.h>
 #include <ceres_ed/testing/residual_collection.h>
 
@@ -17,14 +17,14 @@
 namespace ceres_ed {
 namespace {
 
-// Points in the first column of cells alone: the first two of six columns of nodes are PR.
+// There are points in the first column of cells only: the first two of six columns of nodes are PR.
 TestProblemOptions OneColumnSeen(bool has_camera = false) {
   TestProblemOptions options = HalfSeen(has_camera, 4);
   options.observed_columns = 1;
   return options;
 }
 
-// The nodes of columns [first, last) as what is to be eliminated.
+// Returns a config that eliminates the nodes of the columns [first, last).
 ProblemConfig Columns(int first, int last) {
   ProblemConfig config;
   config.variable_nodes.assign(18, 0);
@@ -32,8 +32,8 @@ ProblemConfig Columns(int first, int last) {
   return config;
 }
 
-// The linearised energy of the residuals that touch the nodes to eliminate, over these and then
-// the seam: cost + g^T d + d^T H d / 2.
+// The linearised energy of the residuals that touch the nodes to eliminate, over these nodes and
+// then the seam: cost + g^T d + d^T H d / 2.
 struct DenseModel {
   double cost = 0.0;
   Eigen::VectorXd g;
@@ -62,7 +62,7 @@ struct DenseModel {
     for (int i = 0; i < num_eliminated; ++i) H(i, i) *= 1.0 + damping;
   }
 
-  // Where the eliminated unknowns go for a step of the seam.
+  // Returns the minimum over the eliminated unknowns for a step of the seam.
   Eigen::VectorXd BestStep(const Eigen::VectorXd& seam_step) const {
     const Eigen::Index n = num_eliminated;
     return -H.topLeftCorner(n, n).llt().solve(
@@ -105,7 +105,7 @@ void Eliminate(const ProblemBuilder& builder,
   ASSERT_TRUE(marginalization->Eliminate(damping));
 }
 
-// The prior of both objects, relative to the largest entries.
+// Compares the priors of both objects, relative to their largest entries.
 void ExpectSamePrior(const Marginalization& a, const Marginalization& b, double tolerance) {
   ASSERT_EQ(a.seam_nodes(), b.seam_nodes());
   const Quadratic& one = a.prior().quadratic();
@@ -166,7 +166,7 @@ TEST(Marginalization, ARigidMotionOfTheSeamCostsNothing) {
         kAngle;
     EXPECT_LT((prior.hessian * motion).norm(), 1e-5 * prior.hessian.norm());
   }
-  // As a residual, too, those directions are left out.
+  // The prior as a residual has no component in these directions either.
   const Eigen::MatrixXd& root = marginalization.prior().SquareRoot().root;
   EXPECT_LT((root.transpose() * root - prior.hessian).norm(), 1e-12 * prior.hessian.norm());
 }
@@ -199,7 +199,7 @@ TEST(Marginalization, InTwoStagesIsTheSameAsInOne) {
   }
 }
 
-// The prior energy is linear in t: where its target moves, only the gradient changes.
+// The prior energy is linear in t: if its target moves, only the gradient changes.
 TEST(Marginalization, UpdateWithAMovedTargetIsTheSameAsANewElimination) {
   StripBuilder strip(OneColumnSeen());
   const int node_prior = strip.Add("node_prior", 0.5);
@@ -209,7 +209,7 @@ TEST(Marginalization, UpdateWithAMovedTargetIsTheSameAsANewElimination) {
   for (int j = 0; j < 18; ++j) strip.problem.node_prior[j] = {0.01 * j, -0.1, 0.2};
   strip.builder.CollectResiduals(
       node_prior, **strip.registry.Create("node_prior", {}), strip.problem.Context());
-  // Lambda is the same wherever t is, so t may move as well.
+  // Lambda does not depend on t, so t may change as well.
   for (int j = 6; j < 18; ++j) state.node(j)[kNodeTranslationOffset] += 0.3;
   ASSERT_TRUE(updated.SetProblem(strip.builder, Columns(2, 6)).ok());
   ASSERT_TRUE(updated.has_factor());
@@ -232,7 +232,7 @@ TEST(Marginalization, ForgetsTheFactorWithOtherWeightsOrNodes) {
   const DeformationState state = RandomState(strip.problem, 0.1, 7);
   Marginalization marginalization;
   Eliminate(strip.builder, Columns(2, 6), state, 0.0, &marginalization);
-  // The data touch no eliminated node: nothing to forget.
+  // No data touch an eliminated node, so nothing has to be discarded.
   strip.builder.SetWeight(strip.data, 2.0);
   ASSERT_TRUE(marginalization.SetProblem(strip.builder, Columns(2, 6)).ok());
   EXPECT_TRUE(marginalization.has_factor());
@@ -265,7 +265,7 @@ TEST(Marginalization, IsTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
-// Nothing holds the nodes where they all go at once: a rigid motion costs nothing.
+// Without a seam nothing holds the nodes: a rigid motion costs nothing.
 TEST(Marginalization, OfEveryNodeNeedsDampingAndHasNoSeam) {
   StripBuilder strip(OneColumnSeen());
   strip.builder.SetWeight(strip.data, 0.0);

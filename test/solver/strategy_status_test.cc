@@ -1,4 +1,4 @@
-// How solves end.
+// Tests how solves end.
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/residual_collection.h>
 
@@ -15,7 +15,7 @@
 namespace ceres_ed {
 namespace {
 
-// Fails (or is not a number) where t_j of its node is not zero, or everywhere.
+// A cost that fails (or returns NaN) if t_j of its node is not zero, or everywhere.
 class FragileCost final : public ceres::CostFunction {
  public:
   FragileCost(bool everywhere, bool not_a_number)
@@ -160,7 +160,7 @@ TEST_P(StrategyStatus, LeavesTheStateAsItWasWhereACostFailsAtEveryStep) {
   for (const bool not_a_number : {false, true}) {
     AddFragileEnergy(0, false, not_a_number);
     const SolveSummary summary = Solve({});
-    // ceres::Solve makes the step smaller until it is nothing, and calls that convergence.
+    // ceres::Solve reduces the step until it vanishes, and reports convergence.
     if (std::get<1>(GetParam()) == LinearSolver::kBlock) {
       EXPECT_EQ(summary.status, SolveStatus::kFailed);
     }
@@ -168,7 +168,7 @@ TEST_P(StrategyStatus, LeavesTheStateAsItWasWhereACostFailsAtEveryStep) {
   }
 }
 
-// Node 17 is PI: only Level II sees it, when Level I has already moved the PR nodes.
+// Node 17 is PI: only Level II evaluates its cost, after Level I has moved the PR nodes.
 TEST_P(StrategyStatus, LeavesTheStateAsItWasWhereACostOfAPointIrrelevantNodeFails) {
   AddFragileEnergy(17, true, false);
   const SolveSummary summary = Solve({});
@@ -187,7 +187,7 @@ INSTANTIATE_TEST_SUITE_P(
              (std::get<1>(info.param) == LinearSolver::kCeres ? "Ceres" : "Block");
     });
 
-// The seam would be torn, were Level II to find no time left.
+// The seam would tear if Level II had no time left.
 TEST(TwoLevelStrategy, LetsPointIrrelevantNodesFollowWhenLevelOneRunsOutOfTime) {
   for (const LinearSolver linear_solver : {LinearSolver::kCeres, LinearSolver::kBlock}) {
     const StripBuilder strip(FarFromTargets());
