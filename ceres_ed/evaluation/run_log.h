@@ -1,4 +1,4 @@
-// What the log of a run says in a few numbers.
+// Summarises the log of a run.
 #ifndef CERES_ED_EVALUATION_RUN_LOG_H_
 #define CERES_ED_EVALUATION_RUN_LOG_H_
 
@@ -12,14 +12,17 @@
 
 namespace ceres_ed {
 
+// The summary of a log.
 struct LogSummary {
+  // The number of frames with each status.
   std::map<std::string, int> frames_by_status;
-  // Of frames that have an rms_plane and did not count 0 inliers; metres.
+  // The root mean square plane distance over the frames that have one and have inliers, and its
+  // last value; in metres.
   AcrossFrames rms_plane;
   double rms_plane_last = 0.0;
-  // Median of every column t_..., by its name; seconds.
+  // The median of every column t_..., by its name, in seconds.
   std::vector<std::pair<std::string, double>> median_times_s;
-  // nodes, pr and map_points of the last row that has them.
+  // nodes, pr and map_points of the last row that contains them.
   std::vector<std::pair<std::string, double>> at_the_end;
 };
 

@@ -1,4 +1,4 @@
-// All that is measured of a sequence, and the figures that sum it up.
+// All measurements of a sequence, and the figures that summarise them.
 #ifndef CERES_ED_EVALUATION_SEQUENCE_FIGURES_H_
 #define CERES_ED_EVALUATION_SEQUENCE_FIGURES_H_
 
@@ -12,7 +12,7 @@
 
 namespace ceres_ed {
 
-// What could not be measured is empty.
+// All measurements of a sequence. Parts that could not be measured are empty.
 struct SequenceFigures {
   std::vector<FrameTruthError> truth;
   std::optional<TrajectoryEvaluation> camera;
@@ -21,8 +21,8 @@ struct SequenceFigures {
   std::optional<FrameLog> log;
 };
 
-// A set of distances of a frame with truth. Reports have all of them for every frame; another one
-// is a member of FrameTruthError, what TruthEvaluator computes, and a row here.
+// A set of distances in a frame with truth. Reports contain all sets for every frame. A new set
+// needs a member of FrameTruthError, its computation in TruthEvaluator, and a row here.
 struct TruthSet {
   const char* name;
   std::optional<DistanceStatistics> FrameTruthError::*set;
@@ -32,13 +32,13 @@ inline constexpr TruthSet kTruthSets[] = {{"surface_all", &FrameTruthError::surf
                                           {"tracking_seen", &FrameTruthError::tracking_seen},
                                           {"tracking_hidden", &FrameTruthError::tracking_hidden}};
 
-// A figure of a set that is summed up over the frames.
+// A figure of a set, which is summarised over the frames.
 struct TruthFigure {
   const char* name;
   std::optional<DistanceStatistics> FrameTruthError::*set;
   double DistanceStatistics::*statistic;
 
-  // Nothing where the frame has no such distances.
+  // Returns the figure of a frame, or nothing if the frame has no such distances.
   std::optional<double> Of(const FrameTruthError& error) const {
     if (!(error.*set)) return std::nullopt;
     return *(error.*set).*statistic;
@@ -54,10 +54,11 @@ inline constexpr TruthFigure kTruthFigures[] = {
     {"tracking_hidden_mean", &FrameTruthError::tracking_hidden, &DistanceStatistics::mean},
     {"tracking_hidden_median", &FrameTruthError::tracking_hidden, &DistanceStatistics::p50}};
 
-// Returns one of the figures over the frames.
+// Returns the summary of a figure over the frames.
 AcrossFrames SummarizeTruth(const std::vector<FrameTruthError>& frames, const TruthFigure& figure);
 
-// Returns the median or the 95th percentile of the depth residuals of each frame over the frames.
+// Returns the summary, over the frames, of the median or the 95th percentile of the depth residuals
+// of each frame.
 AcrossFrames SummarizeDepth(const std::vector<DepthAgreement>& frames,
                             double DistanceStatistics::*statistic);
 

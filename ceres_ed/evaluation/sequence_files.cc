@@ -16,7 +16,7 @@ std::string Join(const std::string& folder, const char* name) {
   return (fs::path(folder) / name).string();
 }
 
-// A folder may have truth to measure against and no pictures.
+// Returns whether a folder has truth to compare with but no pictures.
 bool HasPosesAndNoPictures(const std::string& folder) {
   std::error_code ignored;
   const bool has_depth = fs::is_directory(Join(folder, "depth"), ignored) &&
@@ -47,7 +47,7 @@ Status OpenPictures(const std::string& folder, SequenceFiles* files) {
   return Status::Ok();
 }
 
-// The poses of poses.txt, among them those of frames without a picture.
+// Adds the poses of poses.txt, which may include frames without a picture.
 Status AddPoses(const std::string& path, SequenceFiles* files) {
   const StatusOr<std::vector<FramePose>> poses = ReadPosesFile(path);
   if (!poses.ok()) return poses.status();
@@ -89,7 +89,7 @@ StatusOr<SequenceFiles> OpenSequenceFiles(const std::string& folder) {
   if (!status.ok()) return status;
   const std::string poses = Join(folder, "poses.txt");
   const bool has_truth = HoldsSceneTruth(folder);
-  // A truth of the tissue is of use in camera frames only.
+  // A truth of the tissue is only useful in camera frames.
   if (fs::exists(poses) || (has_truth && files.true_poses.empty())) {
     status = AddPoses(poses, &files);
     if (!status.ok()) return status;

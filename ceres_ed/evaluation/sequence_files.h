@@ -1,5 +1,5 @@
-// The files that the evaluation of a sequence reads: its pictures and truth, and what a run has
-// left.
+// The files that the evaluation of a sequence reads: the pictures and truth of the sequence, and
+// the results of a run.
 #ifndef CERES_ED_EVALUATION_SEQUENCE_FILES_H_
 #define CERES_ED_EVALUATION_SEQUENCE_FILES_H_
 
@@ -21,49 +21,52 @@
 namespace ceres_ed {
 
 // A sequence of any layout with its truth. The files of truth have the same names in every layout
-// (poses.txt, gt_vertices.f32, gt_mesh_000000.ply, tracks_2d.csv) and count frames as the layout
-// does; poses that the layout itself gives are truth, too.
+// (poses.txt, gt_vertices.f32, gt_mesh_000000.ply, tracks_2d.csv) and number the frames like the
+// layout. Poses that belong to the layout itself are truth, too.
 struct SequenceFiles {
   PinholeCamera camera;
-  // All of the frames, without colours and masks; null where a folder has camera.txt and poses.txt
-  // and no depth.
+  // All pictures, without colours and masks; null if the folder contains camera.txt and poses.txt
+  // but no depth.
   std::unique_ptr<DepthSequence> pictures;
-  // Which of the pictures belongs to a frame.
+  // The index of the picture of each frame.
   std::map<int, int> index_of_frame;
-  // Empty where the camera is not known.
+  // The true camera poses by frame; empty if they are not known.
   std::map<int, CameraPose> true_poses;
   std::optional<SceneTruth> truth;
   std::vector<TrackObservation> tracks;
 
-  // Whether the sequence has the frame: a picture of it, or its pose where there are no pictures.
+  // Returns whether the sequence contains the frame: its picture, or its pose if there are no
+  // pictures.
   bool HasFrame(int frame) const;
-  // The frame of each time.
+  // Returns the frame of each time.
   std::map<double, int> FramesByTime() const;
-  // Returns the depth of a frame, or nothing where there is none or it can't be read, with a
-  // sentence in `warnings`: a sequence may have a bad frame in the middle. Error: a picture of
-  // another size than the camera's.
+  // Returns the depth of a frame, or nothing if there is none or it cannot be read. In the second
+  // case a sentence is added to `warnings`, because a sequence may contain a bad frame. It is an
+  // error if a picture has another size than the camera.
   StatusOr<std::optional<DepthImage>> LoadDepth(int frame,
                                                 std::vector<std::string>* warnings) const;
 };
 
-// Returns the sequence in `folder`. Errors name the file: as of OpenSequence, a file of truth that
-// can't be read, the truth of a mesh without poses, neither depth images nor poses.
+// Returns the sequence in `folder`. It is an error, which names the file, if OpenSequence() fails,
+// if a file of truth cannot be read, if there is a true mesh without poses, or if there are neither
+// depth images nor poses.
 StatusOr<SequenceFiles> OpenSequenceFiles(const std::string& folder);
 
-// What a run has left, but for the live clouds, which are read one by one.
+// The results of a run, except for the live clouds, which are read one by one.
 struct ResultFiles {
-  // live/NNNNNN.ply by frame, at least one; each frame is one of the sequence.
+  // The paths live/NNNNNN.ply by frame, at least one. Each frame belongs to the sequence.
   std::map<int, std::string> live_paths;
-  // Of trajectory.txt; world_from_camera.
+  // The poses world_from_camera of trajectory.txt, by frame.
   std::map<int, CameraPose> trajectory;
-  // Of frames.csv.
+  // The log frames.csv, if there is one.
   std::optional<FrameLog> log;
-  // One sentence each.
+  // Warnings of one sentence each.
   std::vector<std::string> warnings;
 };
 
-// Returns what there is of the result in `folder` of the sequence in `sequence_folder`. Errors name
-// the file: no live clouds, one of a frame that the sequence lacks, a file that can't be read.
+// Returns the files of the result in `folder` for the sequence in `sequence_folder`. It is an
+// error, which names the file, if there are no live clouds, if one belongs to a frame that the
+// sequence lacks, or if a file cannot be read.
 StatusOr<ResultFiles> LoadResultFiles(const std::string& folder,
                                       const std::string& sequence_folder,
                                       const SequenceFiles& sequence);
