@@ -5,23 +5,23 @@
 namespace ceres_ed {
 namespace {
 
-// Distances count in hundredths of the source's diagonal.
+// The unit of distances is a hundredth of the source's diagonal.
 constexpr double kPerSquaredLength = 1e4;
-// Point-to-point sees every so many correspondences.
+// Point-to-point uses every kThinning-th correspondence.
 constexpr int kThinning = 4;
 
-// How the energies of a fit take part. Each is a mean over its residuals.
+// The rules of a fit's energies. Each energy is a mean over its residuals.
 struct FitRules {
   explicit FitRules(double spacing) {
     rotation.scale = WeightScale::kPerResidual;
     rotation.stiff = true;
     regularization = rotation;
     regularization.unit = spacing > 0.0 ? 1.0 / (spacing * spacing) : 1.0;
-    // The weights of matched pairs are relative areas and sum to one.
+    // The weights of matched pairs are relative areas, whose sum is one.
     data.unit = kPerSquaredLength;
     data.matched = true;
     data.loss_width = LossWidth::kCorrespondences;
-    // It holds the surface along itself, which takes no more than a few pairs.
+    // Point-to-point keeps the surface from sliding along itself, for which few pairs are enough.
     few_data = data;
     few_data.thinned = true;
     landmark.unit = kPerSquaredLength;

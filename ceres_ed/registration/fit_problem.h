@@ -1,4 +1,4 @@
-// The objective of a fit: its energies, and how their weights are brought to common terms.
+// The objective of a fit: its energies, with weights in common units.
 #ifndef CERES_ED_REGISTRATION_FIT_PROBLEM_H_
 #define CERES_ED_REGISTRATION_FIT_PROBLEM_H_
 
@@ -12,29 +12,29 @@
 
 namespace ceres_ed {
 
-// Energies of a fit over one graph, in a frame where the source's diagonal is 1. The graph and the
-// source that are passed in must outlive it.
+// The energies of a fit over one graph, in the unit frame, in which the source has the diagonal 1.
+// The graph and the source must outlive this object.
 class FitProblem {
  public:
   FitProblem(const BuiltGraph& graph, const PointCloud& source);
 
-  // Adds all energies that `options` ask for. `landmarks` and `fixed` are in the unit frame. Error:
-  // an unknown energy or parameter.
+  // Adds all energies that `options` select. `landmarks` and `fixed` are in the unit frame. It is
+  // an error if an energy or a parameter is unknown.
   Status AddEnergies(const FitOptions& options,
                      const EnergyRegistry& registry,
                      const std::vector<Correspondence>& landmarks,
                      const std::vector<Correspondence>& fixed);
 
-  // Multiplies the weights of E_rot and E_reg.
+  // Multiplies the weights of E_rot and E_reg by `stiffness`.
   void SetStiffness(double stiffness);
 
-  // Replaces what was matched; `loss_width` is in the unit frame.
+  // Replaces the matches; `loss_width` is in the unit frame.
   void SetMatches(const Matches& matches, double loss_width);
 
   const ProblemBuilder& builder() const { return builder_; }
 
-  // The terms of what was measured, each measurement once: observations, but for the few pairs that
-  // point-to-point sees a second time.
+  // Returns the terms of the measurements, with each measurement once: the observations, without
+  // the few pairs that point-to-point uses a second time.
   std::vector<int> MeasuredTerms() const { return terms_.MeasuredTerms(builder_); }
 
  private:

@@ -1,4 +1,4 @@
-// What each class of the frame loop saves of itself.
+// The data that each class of the tracking loop saves.
 #include <ceres_ed/slam/checkpoint.h>
 #include <ceres_ed/slam/frame/feature_points.h>
 #include <ceres_ed/slam/levels/levels.h>
@@ -19,7 +19,7 @@ void ExchangePose(const std::string& name, CameraPose* pose, CheckpointArchive* 
   archive->Value(name + "_translation", &pose->translation);
 }
 
-// Rows of a list whose length is not known when it is loaded.
+// Exchanges the number of rows of a list, which is not known when it is loaded.
 template <typename Row>
 void ExchangeCount(const std::string& name,
                    std::vector<Row>* rows,
@@ -80,7 +80,7 @@ void DeformableMap::ExchangeGraph(CheckpointArchive* archive) {
 
 void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
   points_.Exchange(archive);
-  // Points are visited node by node: the order of each node's list is part of the result.
+  // Points are visited node by node, so the order of each node's list affects the results.
   std::vector<int> owned, owned_counts;
   for (const std::vector<int>& slots : points_of_node_) {
     owned.insert(owned.end(), slots.begin(), slots.end());
@@ -105,7 +105,7 @@ void FeaturePoints::Exchange(CheckpointArchive* archive) {
   tracker_.Exchange(archive);
   ExchangeCount("count", &features_, archive);
   for (Feature& f : features_) {
-    // Nobody looks behind the last node.
+    // Unused places get a fixed value, so that equal states give equal bytes.
     std::fill(f.nodes + f.num_nodes, f.nodes + kMaxBoundNodes, 0);
     std::fill(f.weights + f.num_nodes, f.weights + kMaxBoundNodes, 0.0);
   }
@@ -151,7 +151,7 @@ void TissueMemory::Exchange(CheckpointArchive* archive) {
       "origin", &moments_, [](Moment & m) -> auto& { return m.origin; });
   archive->Column(
       "step", &moments_, [](Moment & m) -> auto& { return m.step; });
-  // Runs and translations of all moments, one after the other.
+  // The runs and translations of all moments, one after the other.
   std::vector<int> run_counts, first, count;
   std::vector<std::array<std::uint16_t, 3>> translations;
   for (const Moment& moment : moments_) {

@@ -1,4 +1,5 @@
-// What a frame does to the map once the camera is found: Level I and II, fusion, growth.
+// The changes of the map in a frame after the camera has been found: Level I and II, fusion,
+// growth.
 #include <ceres_ed/slam/frame/association.h>
 #include <ceres_ed/slam/tracker.h>
 #include <ceres_ed/util/statistics.h>
@@ -14,22 +15,22 @@
 namespace ceres_ed {
 namespace {
 
-// In deviations: what still is an inlier, and where losses give way.
+// Widths in deviations: of inliers, and of the losses.
 constexpr double kInlierWidth = 3.0;
 constexpr double kLossWidth = 5.0;
-// No sensor is better than this, map units.
+// The smallest noise, in map units; no sensor is better than this.
 constexpr double kLeastNoise = 1e-4;
-// A frame is done when a round takes less than this share off the energy.
+// A frame ends when a round reduces the energy by less than this share.
 constexpr int kLeastRounds = 2;
 constexpr double kSmallGain = 0.1;
-// Frames in which a point is seen through, until it goes.
+// The number of frames in which a point is seen through before it is removed.
 constexpr int kMaxContradictions = 5;
 
 }  // namespace
 
 FrameObservations Tracker::Observe(const AssociationResult& association) const {
   FrameObservations observations;
-  // What built-in energies don't look at is left out.
+  // The built-in energies do not use these details.
   const bool with_details = !options_.levels.energies.empty();
   const CameraPose& pose = map_.state().camera_from_map;
   const std::size_t count = association.matches.size();
@@ -58,7 +59,7 @@ double Tracker::FeatureDeviation() const {
   return RobustDeviation(std::move(distances));
 }
 
-// Nodes that are recalled elsewhere than they were have reason to move.
+// Nodes whose recalled positions have changed must move, so they become unsettled.
 void Tracker::NoteRecalled() {
   const std::vector<int> affected = memory_.Affected();
   std::vector<Eigen::Vector3d> before;
@@ -71,13 +72,14 @@ void Tracker::NoteRecalled() {
     if (change > pending.tolerance()) {
       pending.Raise(affected[k], change);
     } else {
-      // Small ones add up until they count.
+      // Small changes accumulate until they are large enough.
       map_.SetNodePrior(affected[k], before[k]);
     }
   }
 }
 
-// Nodes of the last frame that nothing has seen since, and what their new edges pull at.
+// The nodes that were added in the last frame and not seen since become unsettled, and so do their
+// neighbours.
 void Tracker::NoteNewNodes() {
   PendingNodes& pending = levels_->pending();
   const double change = 2.0 * pending.tolerance();
@@ -91,7 +93,7 @@ void Tracker::NoteNewNodes() {
   }
 }
 
-// Level I by rounds: associated anew ahead of each step. Returns what the last one looked at.
+// Level I in rounds, each with a new association. Returns the observations of the last round.
 FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameReport* report) {
   Timer timer;
   const CameraPose& pose = map_.state().camera_from_map;
@@ -127,7 +129,7 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
   return observations;
 }
 
-// Level II.
+// Level II (Eq. 15).
 void Tracker::FollowHidden(bool catch_up, FrameReport* report) {
   if (!levels_->HasLevelTwo()) return;
   Timer timer;
@@ -172,7 +174,7 @@ void Tracker::Verify(const FrameObservations& observations, FrameReport* report)
   report->times.verify = timer.Seconds();
 }
 
-// How well the map lies on the surface, now that it has been deformed.
+// Measures how well the deformed map lies on the surface.
 void Tracker::Measure(const AssociationResult& association, double noise, FrameReport* report) {
   const double width = kInlierWidth * std::max(association.deviation, noise);
   double squares = 0.0;
@@ -187,6 +189,8 @@ void Tracker::Measure(const AssociationResult& association, double noise, FrameR
   report->features = features_.size();
 }
 
+// Averages the points of the map with the observed surface (a running mean), and removes points
+// that the camera sees through.
 void Tracker::Fuse(const AssociationResult& association, double noise) {
   const CameraPose& pose = map_.state().camera_from_map;
   const double width = kInlierWidth * std::max(association.deviation, noise);
@@ -197,7 +201,8 @@ void Tracker::Fuse(const AssociationResult& association, double noise) {
     const PointBinding binding = map_.binding(slot);
     const LocalWarp warp = map_.WarpOf(binding);
     const double share = m.weight / (point.weight + m.weight);
-    // Along the normal alone: back-projection knows nothing of where along the surface.
+    // The correction is along the normal only, because back-projection does not determine positions
+    // along the surface.
     const Eigen::Vector3d correction = pose.rotation.conjugate() * (-m.distance * m.patch->normal);
     point.position += share * (warp.gradient.inverse() * correction);
     const Eigen::Vector3d normal =

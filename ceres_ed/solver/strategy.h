@@ -1,4 +1,4 @@
-// How a problem is solved: batch, two-level and marginal share one interface.
+// The interface by which a problem is solved; batch, two-level and marginal share it.
 #ifndef CERES_ED_SOLVER_STRATEGY_H_
 #define CERES_ED_SOLVER_STRATEGY_H_
 #include <ceres_ed/graph/deformation_state.h>
@@ -9,19 +9,20 @@
 
 namespace ceres_ed {
 
-// A way to solve. One object serves any number of problems, one at a time: it keeps what helps with
-// the next, similar one.
+// A method to solve problems. One object solves any number of problems, one at a time, and keeps
+// data that help with the next, similar one.
 class Strategy {
  public:
   virtual ~Strategy() = default;
 
-  // Moves `state` to a lower energy of `builder`'s problem. When it fails, `state` is unchanged.
+  // Moves `state` to a lower energy of the problem of `builder`, and returns a summary. If it
+  // fails, `state` is unchanged.
   virtual SolveSummary Solve(const ProblemBuilder& builder,
                              const SolverOptions& options,
                              DeformationState* state) = 0;
 };
 
-// The strategy of valid options.
+// Returns the strategy for `options`, which must be valid.
 std::unique_ptr<Strategy> MakeStrategy(const StrategyOptions& options);
 
 }  // namespace ceres_ed

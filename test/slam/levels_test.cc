@@ -26,7 +26,7 @@ bool SameCamera(const DeformationState& a, const DeformationState& b) {
          a.camera_from_map.translation == b.camera_from_map.translation;
 }
 
-// Level I over the whole graph, in one problem whose nodes are held by constancy alone.
+// Solves Level I over the whole graph, as one problem in which the other nodes are constant.
 LevelSummary SolveWholeLevelOne(const LevelScene& scene,
                                 const LevelsOptions& options,
                                 LinearSolver linear_solver,
@@ -66,7 +66,8 @@ TEST(Levels, LevelOneEqualsThatOfTheWholeGraph) {
   }
 }
 
-// Ceres takes other steps to the same place: as near to it as the root of the energy's rounding.
+// Ceres reaches the same minimum by other steps, up to the square root of the rounding error of the
+// energy.
 TEST(Levels, LevelOneEndsWhereCeresDoes) {
   LevelScene scene;
   const LevelsOptions options = ExactLevels(2, SeamEdges::kKeep);
@@ -119,8 +120,8 @@ TEST(Levels, OfBatchEqualTheBatchStrategy) {
   EXPECT_LT(LargestDifference(scene.map.state(), expected), 1e-9);
 }
 
-// The levels' own planes have a loss as wide as these spread, whereas the same energy of a user's
-// has the width that the user gave it.
+// The width of the levels' own plane loss follows the spread of the distances, whereas a user's
+// energy of the same name keeps the width that the user has set.
 TEST(Levels, KeepTheWidthOfAUsersLoss) {
   LevelScene scene;
   LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
@@ -157,7 +158,7 @@ TEST(Levels, LeaveHeldNodesAsTheyAreToTheBit) {
     const DeformationState start = scene.map.state();
     levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
     const DeformationState after_one = scene.map.state();
-    // The nodes of the first four columns see points; one ring more moves.
+    // The nodes of the first four columns see points; one more ring moves.
     for (int j = 0; j < 14 * 4; ++j) {
       EXPECT_EQ(levels->point_relevant().Has(j), j < 16) << j;
       EXPECT_EQ(levels->moved_nodes().Has(j), j < 20) << j;
@@ -192,7 +193,7 @@ TEST(Levels, MoveNothingWhenTheyFail) {
   EXPECT_EQ(report.variable_nodes, 0);
   EXPECT_EQ(LargestDifference(start, scene.map.state()), 0.0);
   EXPECT_TRUE(SameCamera(start, scene.map.state()));
-  // The next frame is none the worse for it.
+  // The next frame is not affected.
   LevelScene fresh;
   LevelScene control;
   levels->SolveLevelOne(fresh.observations, nullptr, &fresh.map);
@@ -214,20 +215,20 @@ TEST(Levels, HaveNothingToDoInLevelTwoWhenAllIsSeen) {
   EXPECT_EQ(LargestDifference(after_one, scene.map.state()), 0.0);
 }
 
-// A long strip whose seen end heaves: what lazy Level II leaves behind, and what it does when
-// asked.
+// A long strip whose visible end moves up and down: tests which nodes lazy Level II leaves for
+// later, and how they follow on request.
 class LazyLevelTwoTest : public ::testing::Test {
  protected:
   static LevelsOptions Options(LevelTwoMode mode) {
     LevelsOptions options;
     options.strategy.rings = 1;
     options.level_two = mode;
-    // So that a wave has something to push.
+    // A larger prior would leave a wave nothing to move.
     options.node_prior_weight = 0.002;
     return options;
   }
 
-  // Targets of frame k.
+  // Returns the targets of frame k.
   FrameObservations Observations(int k) const {
     FrameObservations observations = scene_.observations;
     for (auto* list : {&observations.planes, &observations.features}) {
@@ -236,7 +237,7 @@ class LazyLevelTwoTest : public ::testing::Test {
     return observations;
   }
 
-  // Returns the nodes that Level II has moved.
+  // Returns the number of nodes that Level II has moved.
   int RunFrames(int count, Levels* levels, DeformableMap* map) const {
     int moved = 0;
     for (int k = 1; k <= count; ++k) {
@@ -262,7 +263,7 @@ TEST_F(LazyLevelTwoTest, CatchesUpWithFullLevelTwo) {
   const auto levels = MakeLevels(options);
   DeformableMap map = scene_.map;
   RunFrames(6, levels.get(), &map);
-  // From the same state, all PI nodes at once until they are still.
+  // From the same state, all PI nodes are solved together until they converge.
   DeformableMap settled = map;
   const auto full = MakeLevels(Options(LevelTwoMode::kFull));
   DeformableMap unused = map;
@@ -271,7 +272,7 @@ TEST_F(LazyLevelTwoTest, CatchesUpWithFullLevelTwo) {
   const double left_behind = LargestDistance(map, settled);
   levels->CatchUp(nullptr, &map);
   const double caught_up = LargestDistance(map, settled);
-  // A tolerance is what a node may be off by for each of its neighbours' doings.
+  // The tolerance is the possible error of a node for each of its neighbours.
   EXPECT_GT(left_behind, 2.0 * options.lazy.tolerance);
   EXPECT_LT(caught_up, 2.0 * options.lazy.tolerance);
   EXPECT_TRUE(levels->pending().Unsettled().empty() ||
@@ -283,7 +284,7 @@ TEST_F(LazyLevelTwoTest, MovesWhatHasReasonToMoveAndLeavesTheRest) {
   const auto full = MakeLevels(Options(LevelTwoMode::kFull));
   DeformableMap map = scene_.map;
   DeformableMap other = scene_.map;
-  // At rest ahead of the frames: the scene starts out deformed at random.
+  // The map is at rest before the frames, because the scene starts with a random deformation.
   for (DeformableMap* m : {&map, &other}) {
     full->SolveLevelOne(Observations(0), nullptr, m);
     for (int k = 0; k < 30; ++k) full->SolveLevelTwo(nullptr, m);
@@ -293,7 +294,7 @@ TEST_F(LazyLevelTwoTest, MovesWhatHasReasonToMoveAndLeavesTheRest) {
   const int full_moved = RunFrames(1, full.get(), &other);
   EXPECT_GT(lazy_moved, 0);
   EXPECT_LT(lazy_moved, full_moved / 4);
-  // The far end has not been looked at.
+  // The far end has not changed.
   for (int j = 30 * 4; j < 60 * 4; ++j) EXPECT_TRUE(SameNode(before, map.state(), j)) << j;
 }
 
@@ -361,7 +362,7 @@ TEST(Levels, TakeMoreEnergiesByName) {
   EXPECT_THAT(Levels::Create(options, registry).status().message(), HasSubstr("rotaton"));
   options.energies = {{"rotation", 1.0, {}, {{"gain", 1.0}}}};
   EXPECT_THAT(Levels::Create(options, registry).status().message(), HasSubstr("gain"));
-  // A second rotation term is as good as a larger weight of the first.
+  // A second rotation term has the same effect as a larger weight of the first.
   LevelScene more;
   LevelScene heavier;
   LevelsOptions exact = ThreeSteps(2, SeamEdges::kKeep);

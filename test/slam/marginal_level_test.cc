@@ -23,7 +23,7 @@ TEST(MarginalLevels, TakeTheBatchStep) {
   LevelsOptions marginal = Marginal(LevelTwoMode::kFull);
   LevelsOptions batch;
   batch.strategy.mode = SolveMode::kBatch;
-  // Gauss-Newton: damping is another for each of the two.
+  // Both use Gauss-Newton steps, because their damping would differ.
   marginal.solver.initial_trust_region_radius = 1e14;
   batch.solver.initial_trust_region_radius = 1e14;
   DeformableMap expected = scene.map;
@@ -51,7 +51,7 @@ TEST(MarginalLevels, FinishAtTheBatchMinimum) {
   const auto levels = MakeLevels(Marginal(LevelTwoMode::kFull));
   LevelReport whole;
   LevelReport report;
-  // Far from the start: losses that give way take more steps than a frame would.
+  // The start is far away: with robust losses more steps are needed than in a frame.
   for (int k = 0; k < 3; ++k) {
     whole = reference->FinishLevelOne(scene.observations, nullptr, &expected);
     report = levels->FinishLevelOne(scene.observations, nullptr, &scene.map);
@@ -61,7 +61,7 @@ TEST(MarginalLevels, FinishAtTheBatchMinimum) {
   EXPECT_NEAR(report.energy, whole.energy, 1e-4 * whole.energy);
 }
 
-// What is farther than the reach is held, and Level II has it follow.
+// Nodes beyond the reach are held, and follow by Level II.
 TEST(MarginalLevels, EliminateWithinTheirReach) {
   LevelScene scene(30);
   LevelsOptions options = Marginal(LevelTwoMode::kLazy);
@@ -86,7 +86,7 @@ TEST(MarginalLevels, UseAnEliminationAgain) {
   levels->FinishLevelOne(scene.observations, nullptr, &scene.map);
   const int before = levels->solver().marginalization().num_eliminations();
   EXPECT_GT(before, 0);
-  // At the minimum nothing moves any more: the next frame has no need of another one.
+  // At the minimum nothing moves, so the next frame needs no new elimination.
   levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
   EXPECT_EQ(levels->solver().marginalization().num_eliminations(), before);
   EXPECT_EQ(levels->solver().num_choices(), 1);

@@ -16,7 +16,7 @@ using ::testing::ElementsAreArray;
 
 constexpr int kRows = 4;
 
-// Columns of four nodes; node column * 4 + row.
+// Returns a strip of columns of four nodes; node column * 4 + row.
 TestProblem Strip(int columns = 30) {
   TestProblemOptions options;
   options.columns = columns;
@@ -73,7 +73,7 @@ TEST(Decoupler, OfMarginalEliminatesWithinItsReach) {
   const Decoupling& nodes = decoupler.Choose(strip.graph, Columns(0, 2));
   EXPECT_THAT(nodes.moved.nodes(), ElementsAreArray(Columns(0, 3).nodes()));
   EXPECT_THAT(nodes.eliminated.nodes(), ElementsAreArray(Columns(3, 6).nodes()));
-  // A prior at the seam has been eliminated with the nodes behind it: there is nothing to cut.
+  // A prior at the seam has been eliminated with the nodes behind it, so there is nothing to cut.
   EXPECT_EQ(nodes.seam_edges, SeamEdges::kKeep);
   EXPECT_TRUE(nodes.HoldsNodes(120));
   Decoupler without_bound(Options(SolveMode::kMarginal, 1));
@@ -104,16 +104,16 @@ TEST(Decoupler, KeepsItsNodesWhileTheyServe) {
   EXPECT_EQ(nodes.moved.size(), 28);
   EXPECT_EQ(nodes.eliminated.size(), 32);
   const std::vector<int> eliminated = nodes.eliminated.nodes();
-  // A column on: all of it had stayed.
+  // One column further; all of its nodes had been moved before.
   decoupler.Update(strip.graph, Columns(11, 16));
   EXPECT_EQ(decoupler.num_choices(), 1);
   EXPECT_EQ(nodes.eliminated.nodes(), eliminated);
-  // Another one had been eliminated.
+  // The nodes of another column had been eliminated.
   decoupler.Update(strip.graph, Columns(12, 17));
   EXPECT_EQ(decoupler.num_choices(), 2);
   EXPECT_EQ(nodes.moved.size(), 28);
   EXPECT_EQ(nodes.moved.nodes().front(), 44);
-  // Many that stayed in vain.
+  // Many nodes would be moved without need.
   decoupler.Update(strip.graph, Columns(13, 15));
   EXPECT_EQ(decoupler.num_choices(), 3);
 }
@@ -122,7 +122,7 @@ TEST(Decoupler, MovesPointRelevantNodesThatItHeld) {
   const TestProblem strip = Strip();
   Decoupler decoupler(Options(SolveMode::kMarginal, 0, 1));
   decoupler.Update(strip.graph, Columns(0, 10));
-  // The last column was out of reach.
+  // The last column is out of reach.
   NodeSet relevant = Columns(0, 10);
   for (int row = 0; row < kRows; ++row) relevant.Add(29 * kRows + row);
   const Decoupling& nodes = decoupler.Update(strip.graph, relevant);
@@ -139,7 +139,7 @@ TEST(Decoupler, ChoosesAnewInEachTwoLevelProblem) {
   EXPECT_EQ(decoupler.num_choices(), 2);
 }
 
-// What is out of reach of a marginal Level I follows by a Level II.
+// Nodes out of the reach of a marginal Level I follow by Level II.
 TEST(DecoupledSolver, MovesNodesOutOfReachAfterwards) {
   TestProblemOptions options;
   options.columns = 10;

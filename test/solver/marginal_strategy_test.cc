@@ -105,7 +105,7 @@ TEST(MarginalStrategy, ReachesTheMinimumOfBatch) {
   }
 }
 
-// New correspondences leave the elimination as it is, and the minimum is still the right one.
+// New correspondences do not change the elimination, and the minimum is still correct.
 TEST(MarginalStrategy, KeepsTheEliminationWhileHiddenNodesStayNearIt) {
   StripBuilder strip(Seen(3));
   DeformationState state(24);
@@ -125,13 +125,13 @@ TEST(MarginalStrategy, KeepsTheEliminationWhileHiddenNodesStayNearIt) {
     EXPECT_NEAR(summary.final_energy, energy, 1e-9 * energy);
     EXPECT_LT(Difference(state, expected), 1e-5);
   }
-  // Other weights make another Lambda.
+  // Other weights give another Lambda.
   strip.builder.SetWeight(strip.rotation, 5.0);
   strategy.Solve(strip.builder, Converging(), &state);
   EXPECT_GT(strategy.marginalization().num_eliminations(), eliminations);
 }
 
-// One object while nodes come into view and go, weights change and the graph grows.
+// One object solves while nodes come into view and leave it, weights change and the graph grows.
 TEST(MarginalStrategy, ForgetsNothingAndKeepsNothingStale) {
   DecoupledSolver reused(Marginal(0));
   for (const int observed : {2, 4, 3, 7, 2}) {
@@ -150,7 +150,7 @@ TEST(MarginalStrategy, ForgetsNothingAndKeepsNothingStale) {
   }
 }
 
-// Without E_rot a normal of the surface is free at every node: Lambda_ff is singular.
+// Without E_rot, one direction is free at every node, so that Lambda_ff is singular.
 TEST(MarginalStrategy, HoldsByDampingWhatNothingElseHolds) {
   StripBuilder strip(Seen(2));
   strip.builder.SetWeight(strip.rotation, 0.0);
@@ -178,7 +178,8 @@ TEST(MarginalStrategy, MovesHiddenNodesToTheirBestWhereNothingIsSeen) {
   }
 }
 
-// Far from the minimum the linearised energy promises too much: steps are damped until they hold.
+// Far from the minimum the linearised energy predicts too much, so steps are damped until they
+// decrease the energy.
 TEST(MarginalStrategy, NeverRaisesTheEnergyFromFarAway) {
   StripBuilder strip(Seen(2));
   for (int seed = 1; seed <= 10; ++seed) {
@@ -198,7 +199,7 @@ TEST(MarginalStrategy, NeverRaisesTheEnergyFromFarAway) {
   }
 }
 
-// Ties the last node to the camera.
+// A prior that couples the last node to the camera.
 struct CameraTie {
   template <typename T>
   bool operator()(const T* node, const T* translation, T* residual) const {
@@ -220,7 +221,7 @@ class CameraTieEnergy final : public EnergyTerm {
   }
 };
 
-// It is kept beside the camera, and the minimum is that of batch all the same.
+// The node is kept with the camera, and the minimum is still that of the batch solve.
 TEST(MarginalStrategy, ReachesTheMinimumOfBatchWhereAPriorJoinsAHiddenNodeToTheCamera) {
   StripBuilder strip(Seen(2, true), "point_to_plane");
   strip.Add("node_prior", 0.01);

@@ -82,7 +82,8 @@ TEST(SolveSummary, StartsOutFailed) {
   EXPECT_EQ(SolveSummary().TotalIterations(), 0);
 }
 
-// E_rot, E_reg and E_data all vanish at A_j = R, t_j = R g_j + T - g_j, and nowhere else near rest.
+// E_rot, E_reg and E_data are all zero at A_j = R, t_j = R g_j + T - g_j, and nowhere else near
+// rest.
 TEST(Strategy, FindsARigidMotionOfAllPoints) {
   TestProblemOptions options;
   options.points_per_cell = 4;
@@ -146,7 +147,7 @@ TEST(Strategy, SummaryHasTheFullEnergyBeforeAndAfter) {
       DeformationState state = RandomState(strip.problem, 0.1, 8);
       const double before = strip.builder.Evaluate(state).Total();
       const SolveSummary summary = Make(mode, linear_solver)->Solve(strip.builder, {}, &state);
-      // Summed up in another order.
+      // The sum has another order.
       EXPECT_NEAR(summary.initial_energy, before, 1e-13 * before);
       EXPECT_NEAR(summary.final_energy, strip.builder.Evaluate(state).Total(), 1e-13 * before);
       EXPECT_LT(summary.final_energy, before);
@@ -174,7 +175,7 @@ TEST(Strategy, LinearSolversFindTheSameMinimum) {
   }
 }
 
-// Level II on its own: every PI node at its best while the PR nodes stay.
+// Level II on its own: every PI node is at its optimum while the PR nodes are held.
 TEST(TwoLevelStrategy, LeavesTheSeenPartAsLevelOneHadIt) {
   for (const SeamEdges seam_edges : {SeamEdges::kKeep, SeamEdges::kCut}) {
     const StripBuilder strip(HalfSeen(true, 4));
@@ -192,7 +193,8 @@ TEST(TwoLevelStrategy, LeavesTheSeenPartAsLevelOneHadIt) {
     built.problem->Evaluate({}, nullptr, nullptr, &gradient, nullptr);
     double largest = 0.0;
     for (const double g : gradient) largest = std::max(largest, std::abs(g));
-    // Cut: Level I does not see PI nodes, so its minimum is still one. Keep: they have moved on.
+    // Cut: Level I does not depend on PI nodes, so its minimum is unchanged. Keep: the PI nodes
+    // have moved.
     if (seam_edges == SeamEdges::kCut) {
       EXPECT_LT(largest, 1e-3);
     } else {
@@ -215,8 +217,8 @@ TEST(TwoLevelStrategy, MovesNothingWhereNothingIsSeen) {
   }
 }
 
-// ceres::Solve sums up the cost by thread, and the last bits of the cost reach the state through
-// the trust region.
+// ceres::Solve sums the cost per thread, and the last bits of the cost affect the state through the
+// trust region.
 TEST(Strategy, GivesTheSameOnOneThreadAndOnTwo) {
   TestProblemOptions options;
   options.columns = 16;

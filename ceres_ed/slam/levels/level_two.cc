@@ -9,10 +9,11 @@
 namespace ceres_ed {
 namespace {
 
-// A wave that goes on longer moves to and fro: what is left is left.
+// The largest number of waves. If there were more, nodes would move to and fro; the remaining
+// changes are left.
 constexpr int kMostWaves = 200;
 
-// What several solves did.
+// Adds the report of one wave to that of all.
 void Add(const LevelReport& wave, LevelReport* all) {
   all->status = wave.status;
   all->variable_nodes += wave.variable_nodes;
@@ -53,6 +54,7 @@ LevelReport Levels::SendWaves(int most,
                               DeformableMap* map) {
   const auto hidden = [this](int node) { return !point_relevant_.Has(node); };
   LevelReport all;
+  // Each wave solves for the unsettled nodes and the rings around them, while the others are held.
   for (int wave = 0; wave < most; ++wave) {
     std::vector<int> seeds;
     for (const int node : pending_.Unsettled()) {
@@ -69,7 +71,8 @@ LevelReport Levels::SendWaves(int most,
     front_.Clear();
     for (const int node : seeds) front_.Add(node);
     AddRings(map->graph(), options_.lazy.reach, hidden, &front_);
-    // A wave over most of them would go on to the rest: one solve takes all.
+    // A wave over most of the hidden nodes would continue to the rest, so one solve takes all of
+    // them.
     const int num_nodes = map->graph().num_nodes();
     if (2 * front_.size() > num_nodes - point_relevant_.size()) {
       for (int node = 0; node < num_nodes; ++node) {

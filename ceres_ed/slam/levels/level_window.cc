@@ -49,7 +49,7 @@ LevelWindow LevelWindowBuilder::Build(const DeformationGraph& graph,
       const GraphEdge& edge = graph.edges()[e];
       const int other = edge.from == node ? edge.to : edge.from;
       Take(graph, state, other, &window);
-      // An edge between two variable nodes is met twice; its start takes it.
+      // An edge between two variable nodes is visited twice; its first node adds it.
       if (edge.to == node && local_[other] < window.num_variable) continue;
       window.graph.AddEdge({local_[edge.from], local_[edge.to], edge.weight});
     }

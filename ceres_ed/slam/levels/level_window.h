@@ -1,4 +1,5 @@
-// A part of the graph with indices of its own, so that a level costs what it moves and no more.
+// A part of the graph with its own indices, so that the cost of a level depends only on the nodes
+// that it moves.
 #ifndef CERES_ED_SLAM_LEVELS_LEVEL_WINDOW_H_
 #define CERES_ED_SLAM_LEVELS_LEVEL_WINDOW_H_
 
@@ -14,39 +15,40 @@
 
 namespace ceres_ed {
 
-// The nodes that a level solves for, the held ones that share an edge or a point with them, and
-// every edge that touches one that it solves for. A problem over the window has the residuals, and
-// so the minimum, of the same level over the whole graph.
+// The nodes for which a level solves, the held nodes that share an edge or a point with them, and
+// every edge that touches a node for which it solves. A problem over the window has the same
+// residuals, and therefore the same minimum, as the level over the whole graph.
 struct LevelWindow {
-  // Node of the map for each node of the window: the eliminated ones first, then those that are
-  // moved, then those that are held.
+  // The node of the map for each node of the window: the eliminated nodes first, then those that
+  // are moved, then those that are held.
   std::vector<int> nodes;
   int num_eliminated = 0;
-  // The eliminated and the moved ones: those that the level solves for.
+  // The number of nodes for which the level solves: the eliminated and the moved ones.
   int num_variable = 0;
   DeformationGraph graph;
   DeformationState state;
 
-  // The level as a problem over the window.
+  // Returns the level as a problem over the window.
   ProblemConfig Config(bool camera_variable, SeamEdges seam_edges) const;
 };
 
-// Makes windows; keeps its index of nodes from one to the next.
+// Builds windows, and keeps its index of nodes from one window to the next.
 class LevelWindowBuilder {
  public:
-  // `variable`: nodes of the map, each once. `held`: more nodes to take in (bound to points of the
-  // level); those that share an edge with variable ones are found here.
+  // Returns a window. `variable` contains nodes of the map, each once. `held` contains additional
+  // nodes, to which points of the level are bound; nodes that share an edge with variable ones are
+  // found here.
   LevelWindow Build(const DeformationGraph& graph,
                     const DeformationState& state,
                     const std::vector<int>& variable,
                     const std::vector<int>& held);
 
-  // The window of a Level I.
+  // Returns the window of a Level I.
   LevelWindow Build(const DeformationGraph& graph,
                     const DeformationState& state,
                     const Decoupling& nodes);
 
-  // The window's index of a map node; -1 for one outside. Of the last window built.
+  // Returns the index of a map node in the last window, or -1 if the node is outside.
   int Local(int node) const { return local_[node]; }
 
   std::size_t HeapBytes() const { return HeapBytesOf(local_) + HeapBytesOf(taken_); }

@@ -10,12 +10,12 @@
 namespace ceres_ed {
 namespace {
 
-// Steps that are added where the first ones were all refused.
+// The number of steps that are added if all steps were refused.
 constexpr int kMoreSteps = 5;
 
 // The energies of the levels and how they take part.
 std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
-  // Hidden nodes see neither observations nor the camera.
+  // Hidden nodes depend neither on observations nor on the camera.
   TermRule planes;
   planes.scale = WeightScale::kPerObservedNode;
   planes.levels = TermLevels::kLevelOne;
@@ -36,7 +36,8 @@ std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
           {"pose_prior", {"pose_prior", 1.0, {}, spreads}, camera}};
 }
 
-// Those of the user: observations count as the levels' own do, and priors hold hidden nodes, too.
+// Returns the term of a user's energy: observations are weighted like those of the levels, and
+// priors act on hidden nodes, too.
 TermSpec UsersTerm(const EnergySpec& energy, const EnergyRegistry& registry) {
   TermSpec spec = {energy.name, energy, {}};
   spec.rule.is_users = true;
@@ -48,11 +49,11 @@ TermSpec UsersTerm(const EnergySpec& energy, const EnergyRegistry& registry) {
   return spec;
 }
 
-// Where a frame's last problem is solved to its end.
+// Limits with which the last problem of a frame is solved until it converges.
 constexpr int kFinishSteps = 20;
 constexpr double kFinishTolerance = 1e-5;
 
-// How far a node went from `before`: |dt| + |dA|.
+// Returns the motion of a node from `before`: |dt| + |dA|.
 double MotionOf(const double* before, const double* after) {
   return (NodeTranslation(after) - NodeTranslation(before)).norm() +
          (NodeAffine(after) - NodeAffine(before)).norm();
@@ -90,7 +91,7 @@ StatusOr<std::unique_ptr<Levels>> Levels::Create(const LevelsOptions& options,
 
 std::unique_ptr<DecoupledSolver> Levels::MakeSolver() const {
   StrategyOptions strategy = options_.strategy;
-  // What full Level II moves in every frame may as well be eliminated.
+  // With full Level II all hidden nodes move in every frame, so all of them can be eliminated.
   if (options_.level_two == LevelTwoMode::kFull) strategy.marginal_reach = -1;
   return std::make_unique<DecoupledSolver>(strategy);
 }
@@ -138,7 +139,7 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   if (!previous.empty()) inputs.context.node_previous = &previous;
   inputs.context.has_camera = true;
   inputs.context.camera_prior = observations.camera_prior;
-  // Data count per PR node, whatever the density of points.
+  // The weight of the data is per PR node and does not depend on the density of points.
   inputs.nodes_per_observation =
       point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
   inputs.correspondence_width = observations.plane_width;
@@ -166,7 +167,7 @@ std::vector<Eigen::Vector3d> Levels::PreviousOf(const LevelWindow& window,
   if (options_.energies.empty()) return previous;
   previous.reserve(window.nodes.size());
   for (const int node : window.nodes) {
-    // The first window of the frame that has it sees it as it was.
+    // The first window of a frame that contains the node sees its previous position.
     const auto [place, is_new] =
         previous_.try_emplace(node, NodeTranslation(map.state().node(node)));
     previous.push_back(place->second);

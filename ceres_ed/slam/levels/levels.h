@@ -32,81 +32,83 @@ struct LevelReport {
   SolveStatus status = SolveStatus::kConverged;
   int variable_nodes = 0;
   int point_relevant = 0;
-  // Of the variable nodes.
+  // The number of variable nodes that were eliminated.
   int marginalized = 0;
   int iterations = 0;
-  // The energy of the level's problem before and after.
+  // The energy of the level's problem before and after the solve.
   double initial_energy = 0.0;
   double energy = 0.0;
 };
 
-// Builds and solves the levels of frame after frame; keeps what the solvers keep.
+// Builds and solves the levels of one frame after another, and keeps data of the solvers between
+// them.
 class Levels {
  public:
-  // Error: an unknown energy or parameter.
+  // Returns new levels. It is an error if an energy or a parameter is unknown.
   static StatusOr<std::unique_ptr<Levels>> Create(const LevelsOptions& options,
                                                   const EnergyRegistry& registry);
 
-  // What nodes do from here on they do in a new frame.
+  // Starts a new frame: the present positions of the nodes become those of the previous frame.
   void BeginFrame() { previous_.clear(); }
 
-  // Level I (Eq. 14): moves camera, PR nodes and their rings. On failure nothing has moved.
-  // `priors` may be null: then nodes keep the prior that they have.
+  // Solves Level I (Eq. 14), which moves the camera, the PR nodes and their rings. If it fails,
+  // nothing has moved. `priors` may be null; the nodes then keep their present prior.
   LevelReport SolveLevelOne(const FrameObservations& observations,
                             NodePriorSource* priors,
                             DeformableMap* map);
 
-  // The same problem once more, until nothing moves any more.
+  // Solves the same problem again until it has converged.
   LevelReport FinishLevelOne(const FrameObservations& observations,
                              NodePriorSource* priors,
                              DeformableMap* map);
 
-  // Level II (Eq. 15): moves the PI nodes, all or those that have reason to move.
+  // Solves Level II (Eq. 15), which moves all PI nodes, or those whose surroundings have changed.
   LevelReport SolveLevelTwo(NodePriorSource* priors, DeformableMap* map);
 
-  // Lets PI nodes that were left behind follow until none is unsettled: of all of them.
+  // Moves PI nodes that have not followed yet, until no node is unsettled.
   LevelReport CatchUp(NodePriorSource* priors, DeformableMap* map);
-  // And until none of `nodes` is.
+  // Does the same until none of `nodes` is unsettled.
   LevelReport CatchUp(const std::vector<int>& nodes, NodePriorSource* priors, DeformableMap* map);
 
-  // The same on a copy of the map: what the levels know of the map itself, and what comes of it,
-  // stays as it is.
+  // Does the same on a copy of the map. The state of the levels, which refers to the map itself,
+  // does not change.
   void CatchUpCopy(NodePriorSource* priors, DeformableMap* copy);
 
-  // The nodes that the last Level I moved, and its PR nodes, by number.
+  // Return the nodes that the last Level I moved, and its PR nodes, in ascending order.
   const NodeSet& moved_nodes() const { return moved_; }
   const NodeSet& point_relevant() const { return point_relevant_; }
-  // Returns what made the last level that failed since the last call fail, where it was a residual:
-  // energy, plugin and residual. Empty where there was none.
+  // Returns the residual (energy, plugin and index) that made a level fail since the last call, if
+  // a residual was the reason; empty otherwise.
   std::string TakeFault() { return std::exchange(fault_, {}); }
-  // Energies of LevelsOptions::energies that have not added a residual yet.
+  // Returns the energies of LevelsOptions::energies that have not added a residual yet.
   std::vector<std::string> IdleEnergies() const { return terms_.IdleEnergies(); }
-  // For what changes outside of the levels.
+  // Returns the pending nodes, for changes that are made outside of the levels.
   PendingNodes& pending() { return pending_; }
-  // Whether there are nodes that Level I does not move.
+  // Returns whether there may be nodes that Level I does not move.
   bool HasLevelTwo() const { return solver_->HasLevelTwo(); }
-  // Whether Level I eliminates nodes, so that its minimum is that of the batch solve.
+  // Returns whether Level I eliminates nodes, so that its minimum is that of the batch solve.
   bool Eliminates() const { return solver_->Eliminates(); }
-  // What chooses and solves for nodes.
+  // Returns the solver, which chooses the nodes and solves for them.
   const DecoupledSolver& solver() const { return *solver_; }
 
-  // Of what it keeps of every node; solvers hold what the last windows took.
+  // Returns the memory of data that are kept for every node. The memory of the solvers depends on
+  // the size of the last windows only.
   std::size_t HeapBytes() const {
     return windows_.HeapBytes() + pending_.HeapBytes() + point_relevant_.HeapBytes() +
            moved_.HeapBytes() + front_.HeapBytes() + wanted_.HeapBytes();
   }
 
-  // Drops what the solvers keep from one frame for the next. It saves time, but the order in which
-  // they sum depends on it, and with that the last digits.
+  // Discards the data that the solvers keep from frame to frame. These data save time, but the
+  // order of sums depends on them, and therefore the last digits of the results.
   void ForgetSolvers();
 
-  // Saves what the last levels have moved, or loads it. Solvers are not part of it.
+  // Saves or loads which nodes the last levels moved. The solvers are not included.
   void Exchange(CheckpointArchive* archive);
 
  private:
   explicit Levels(const LevelsOptions& options)
       : options_(options), pending_(options.lazy.tolerance) {}
-  // Whether nodes may be left behind.
+  // Returns whether Level II may leave nodes for later.
   bool IsLazy() const { return HasLevelTwo() && options_.level_two == LevelTwoMode::kLazy; }
   std::unique_ptr<DecoupledSolver> MakeSolver() const;
   void MarkPointRelevant(const FrameObservations& observations);
@@ -114,16 +116,16 @@ class Levels {
                             const SolverOptions& options,
                             NodePriorSource* priors,
                             DeformableMap* map);
-  // Level II of some PI nodes, the others held.
+  // Solves Level II for some PI nodes while the others are held.
   LevelReport SolveHidden(const std::vector<int>& nodes,
                           NodePriorSource* priors,
                           DeformableMap* map);
-  // Waves from those unsettled PI nodes that `counts`, until there are none.
+  // Sends waves from those unsettled PI nodes for which `counts` is true, until there are none.
   template <typename Counts>
   LevelReport SendWaves(int most, Counts counts, NodePriorSource* priors, DeformableMap* map);
-  // Solves a level of the window by `solve(options, &summary)`, with more steps where the first
-  // ones bring nothing, and takes what has moved over into the map. `motion` becomes how far each
-  // variable node went.
+  // Solves a level of the window by `solve(options, &summary)`, with more steps if the first ones
+  // have no effect, and copies the result to the map. `motion` receives the motion of each variable
+  // node.
   using SolveWindow = std::function<bool(const SolverOptions&, SolveSummary*)>;
   LevelReport Solve(const SolverOptions& options,
                     const SolveWindow& solve,
@@ -131,13 +133,13 @@ class Levels {
                     DeformableMap* map,
                     std::vector<double>* motion);
 
-  // Where the nodes of a window were one frame ago.
+  // Returns t_j of the nodes of the window one frame ago.
   std::vector<Eigen::Vector3d> PreviousOf(const LevelWindow& window, const DeformableMap& map);
 
   LevelsOptions options_;
   TermSet terms_;
-  // t_j before the frame of the nodes that its windows have taken; kept where energies of the
-  // user's may ask for it.
+  // The t_j, before the frame, of the nodes in its windows; kept only if there are user energies,
+  // which may need them.
   std::unordered_map<int, Eigen::Vector3d> previous_;
   std::string fault_;
   LevelWindowBuilder windows_;
@@ -145,7 +147,8 @@ class Levels {
   NodeSet point_relevant_;
   NodeSet moved_;
   PendingNodes pending_;
-  // Of a wave: its nodes, and those that it is sent for. Kept for their marks.
+  // The nodes of a wave, and the nodes for which it is sent. They are members to reuse their
+  // memory.
   NodeSet front_;
   NodeSet wanted_;
 };

@@ -10,15 +10,15 @@
 namespace ceres_ed {
 namespace {
 
-// The eliminated nodes of `config` as the variable ones of a problem of their own.
+// Returns a config whose variable nodes are the eliminated nodes of `config`.
 ProblemConfig EliminatedOf(const ProblemConfig& config) {
   ProblemConfig eliminated;
   eliminated.variable_nodes = config.eliminated_nodes;
   return eliminated;
 }
 
-// A node that shares a residual with the camera stays beside it: the residual is a prior of an
-// energy of the user's.
+// Moves nodes that share a residual with the camera from the eliminated to the variable nodes. Such
+// a residual is a prior of a user's energy.
 void KeepNodesOfCamera(const ProblemBuilder& builder, ProblemConfig* config) {
   const auto is_camera = [](const BlockRef& b) { return b.kind != BlockRef::Kind::kNode; };
   for (const SelectedResidual& residual : builder.Select(EliminatedOf(*config))) {

@@ -1,4 +1,4 @@
-// Solves a ProblemConfig whose eliminated nodes follow by back-substitution.
+// Minimises a ProblemConfig; its eliminated nodes follow by back-substitution.
 #ifndef CERES_ED_SOLVER_DECOUPLING_CONFIG_SOLVER_H_
 #define CERES_ED_SOLVER_DECOUPLING_CONFIG_SOLVER_H_
 
@@ -11,31 +11,33 @@
 
 namespace ceres_ed {
 
-// Minimises over the variable and the eliminated nodes of one config after another, and keeps what
-// helps with the next, similar one.
+// Minimises over the variable and the eliminated nodes of one config after another, and keeps data
+// that help with the next, similar one.
 //
 // Without eliminated nodes it is a LevelSolver. With them, each iteration eliminates these nodes at
-// the present state, takes a step over the variable ones with the prior that the others leave on
-// the seam, and lets the others follow by back-substitution. Together that is a Gauss-Newton step
-// over both, so that the minimum is the one that moving them all would have.
+// the present state (Eq. 20), takes a step over the variable nodes with the resulting prior on the
+// seam, and computes the eliminated nodes by back-substitution (Eq. 21). Together this is a
+// Gauss-Newton step over all of these nodes, so that the minimum is the one of a solve that moves
+// all of them.
 //
-// The cost of an elimination grows with the number of eliminated nodes; that of a step over the
-// variable ones does not. The elimination is kept, for the next iteration and the next solve, while
-// the eliminated nodes stay near where it was made and the weights are the same: only their
-// gradient is worked out again, so that it converges to the same minimum.
+// The cost of an elimination grows with the number of eliminated nodes; the cost of a step over the
+// variable nodes does not. The elimination is used again in the next iteration and in the next
+// solve as long as the eliminated nodes stay near their state at the elimination and the weights
+// are the same. Only their gradient is computed again, so that the solve converges to the same
+// minimum.
 //
-// A step that doesn't lower the energy is undone, and damped more. Where eliminated nodes have
-// nothing that settles them, damping alone does.
+// A step that does not decrease the energy is undone, and the next one is damped more. If nothing
+// else determines eliminated nodes, the damping does.
 class ConfigSolver {
  public:
-  // Of the options it looks at linear_solver and relinearize_above.
+  // Uses only linear_solver and relinearize_above of the options.
   explicit ConfigSolver(const StrategyOptions& options);
 
-  // Minimises the problem of `config` over `state`, and appends the variable nodes to
-  // `summary->levels`, then the eliminated ones with the cost of their residuals, if there are any.
-  // The energies of the summary become those of all residuals of the config. Nodes that share a
-  // residual with the camera are moved and not eliminated. False, and `state` is as it was, when it
-  // fails.
+  // Minimises the problem of `config` over `state`. Appends the summary of the variable nodes to
+  // `summary->levels` and, if there are eliminated nodes, a second one with the cost of their
+  // residuals. The energies of the summary are those of all residuals of the config. Nodes that
+  // share a residual with the camera are moved and not eliminated. Returns false if it fails;
+  // `state` is then unchanged.
   bool Solve(const ProblemBuilder& builder,
              const ProblemConfig& config,
              const SolverOptions& options,

@@ -18,8 +18,9 @@ NodeSet NodesOf(const std::vector<char>& mask) {
   return nodes;
 }
 
-// Where Level I was stopped early, PI nodes still follow by a few steps, whatever the time limit or
-// the caller say: a torn seam would be no usable state.
+// Returns the options of Level II. If Level I was stopped early, the PI nodes still follow by a few
+// steps, whatever the time limit or the caller says, because a torn seam would not be a usable
+// state.
 SolverOptions LevelTwoOptions(const SolverOptions& options,
                               const SolveSummary& level_one,
                               double time_left_s) {
@@ -56,6 +57,7 @@ SolveSummary DecoupledSolver::Solve(const ProblemBuilder& builder,
   const Timer timer;
   const int num_nodes = builder.graph().num_nodes();
   const std::vector<char> point_relevant = builder.PointRelevantNodes();
+  // Level I over the nodes that the strategy chooses, then Level II over the others.
   const Decoupling& nodes = decoupler_.Choose(builder.graph(), NodesOf(point_relevant));
   const bool follows = HasLevelTwo() && (!Eliminates() || nodes.HoldsNodes(num_nodes));
   const DeformationState start = *state;
@@ -66,11 +68,11 @@ SolveSummary DecoupledSolver::Solve(const ProblemBuilder& builder,
     const double time_left_s = options.time_limit_s - timer.Seconds();
     solved = Follow(builder, point_relevant, options, time_left_s, state, &summary);
   } else if (solved && HasLevelTwo()) {
-    // There may have been nothing to eliminate.
+    // There may have been no nodes to eliminate.
     summary.levels.resize(2);
   }
   if (!solved) *state = start;
-  // A Level I that moves nodes and holds none has every residual.
+  // A Level I that moves nodes and holds none contains every residual.
   if (!solved || follows || summary.levels.front().num_variable_nodes == 0) {
     summary.initial_energy = builder.Evaluate(start).Total();
     summary.final_energy = builder.Evaluate(*state).Total();
@@ -78,7 +80,7 @@ SolveSummary DecoupledSolver::Solve(const ProblemBuilder& builder,
   return summary;
 }
 
-// Level II. The status remains that of Level I where this one did not converge.
+// Level II (Eq. 15). The status remains that of Level I if Level I did not converge.
 bool DecoupledSolver::Follow(const ProblemBuilder& builder,
                              const std::vector<char>& point_relevant,
                              const SolverOptions& options,

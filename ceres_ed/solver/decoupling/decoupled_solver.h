@@ -1,4 +1,4 @@
-// Solves by levels: the whole of a problem at once, or its levels one by one.
+// Solves a problem by levels: all of it at once, or its levels one by one.
 #ifndef CERES_ED_SOLVER_DECOUPLING_DECOUPLED_SOLVER_H_
 #define CERES_ED_SOLVER_DECOUPLING_DECOUPLED_SOLVER_H_
 
@@ -9,11 +9,11 @@
 
 namespace ceres_ed {
 
-// Every strategy: they differ in their rows of the table alone (strategies/strategy_table.h), which
-// say what nodes Level I moves and how the others follow.
+// The implementation of every strategy. The strategies differ only in their rows of the table
+// (strategies/strategy_table.h), which state which nodes Level I moves and how the others follow.
 //
 // A fit calls Solve(). Tracking calls UpdateNodes() on its map, builds the problem of Level I over
-// a window of it, solves that, and has parts of Level II solved when they are needed.
+// a window of the map, solves it, and solves parts of Level II when they are needed.
 class DecoupledSolver final : public Strategy {
  public:
   explicit DecoupledSolver(const StrategyOptions& options);
@@ -22,13 +22,14 @@ class DecoupledSolver final : public Strategy {
                      const SolverOptions& options,
                      DeformationState* state) override;
 
-  // The nodes of the next Level I, by those of the last one (Decoupler::Update).
+  // Returns the nodes of the next Level I, depending on those of the last one
+  // (Decoupler::Update()).
   const Decoupling& UpdateNodes(const DeformationGraph& graph, const NodeSet& point_relevant) {
     return decoupler_.Update(graph, point_relevant);
   }
 
-  // Solve the problem of a config over `state`, as ConfigSolver does. Each keeps the structure of
-  // its own level.
+  // Minimise the problem of a config over `state`, like ConfigSolver. Each level keeps its own
+  // structure.
   bool SolveLevelOne(const ProblemBuilder& builder,
                      const ProblemConfig& config,
                      const SolverOptions& options,
@@ -44,13 +45,13 @@ class DecoupledSolver final : public Strategy {
     return level_two_.Solve(builder, config, options, state, summary);
   }
 
-  // Whether there are nodes that Level I does not move.
+  // Returns whether there may be nodes that Level I does not move.
   bool HasLevelTwo() const;
-  // Whether Level I eliminates nodes.
+  // Returns whether Level I eliminates nodes.
   bool Eliminates() const;
 
   const Marginalization& marginalization() const { return level_one_.marginalization(); }
-  // How often the nodes of Level I were chosen anew.
+  // Returns how often the nodes of Level I were chosen again.
   int num_choices() const { return decoupler_.num_choices(); }
 
  private:

@@ -7,8 +7,8 @@
 namespace ceres_ed {
 namespace {
 
-// Nodes that are moved although they need not be, as a share of the PR nodes, from which on it pays
-// to eliminate them, too.
+// The number of nodes that are moved without need, as a share of the PR nodes, above which a new
+// choice saves time.
 constexpr double kMostIdle = 0.5;
 
 std::vector<char> MaskOf(const NodeSet& nodes, int num_nodes) {

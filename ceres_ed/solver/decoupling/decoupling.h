@@ -10,27 +10,28 @@
 
 namespace ceres_ed {
 
-// The part that each node plays in Level I. Nodes that are in neither set are held.
+// The role of each node in Level I. Nodes that are in neither set are held.
 struct Decoupling {
-  // Level I moves these, beside the camera.
+  // The nodes that Level I moves, in addition to the camera.
   NodeSet moved;
-  // These are eliminated from Level I (Eq. 20) and follow each of its steps by back-substitution
-  // (Eq. 21).
+  // The nodes that are eliminated from Level I (Eq. 20). They follow each of its steps by
+  // back-substitution (Eq. 21).
   NodeSet eliminated;
-  // What becomes of the priors between Level I and held nodes.
+  // How priors between moved and held nodes are treated in Level I.
   SeamEdges seam_edges = SeamEdges::kKeep;
 
+  // Returns whether some of `num_nodes` nodes are held.
   bool HoldsNodes(int num_nodes) const { return moved.size() + eliminated.size() < num_nodes; }
-  // Level I as a problem over a graph of `num_nodes` nodes.
+  // Returns Level I as a problem over a graph of `num_nodes` nodes.
   ProblemConfig LevelOne(int num_nodes, bool camera_variable) const;
   void Clear();
 };
 
-// What a choice of nodes depends on.
+// The inputs on which a choice of nodes depends.
 struct DecouplingInputs {
   const StrategyOptions* options = nullptr;
   const DeformationGraph* graph = nullptr;
-  // By number.
+  // The PR nodes, in ascending order.
   const NodeSet* point_relevant = nullptr;
 };
 
@@ -39,15 +40,15 @@ class Decoupler {
  public:
   explicit Decoupler(const StrategyOptions& options) : options_(options) {}
 
-  // Chooses anew. `point_relevant` is sorted by number.
+  // Chooses the nodes of a new problem. `point_relevant` must be in ascending order.
   const Decoupling& Choose(const DeformationGraph& graph, const NodeSet& point_relevant);
 
-  // The same for a problem that resembles the last one. Where nodes are eliminated, the last choice
-  // is kept as long as it still serves, so that its factor can be used again: no PR node is among
-  // the eliminated ones, and few nodes are moved that need not be.
+  // Chooses the nodes of a problem that resembles the last one. If nodes are eliminated, the last
+  // choice is kept as long as no PR node is among the eliminated nodes and few nodes are moved
+  // without need. The factor of the elimination can then be used again.
   const Decoupling& Update(const DeformationGraph& graph, const NodeSet& point_relevant);
 
-  // How often nodes were chosen anew.
+  // Returns how often nodes were chosen again.
   int num_choices() const { return num_choices_; }
 
  private:

@@ -1,4 +1,4 @@
-// One solve with PI nodes marginalised.
+// One solve in which PI nodes are marginalised.
 #ifndef CERES_ED_SOLVER_MARGINAL_MARGINAL_SOLVE_H_
 #define CERES_ED_SOLVER_MARGINAL_MARGINAL_SOLVE_H_
 
@@ -13,35 +13,36 @@
 
 namespace ceres_ed {
 
-// What MarginalSolve solves, and within what limits.
+// The problem of a MarginalSolve, and its limits.
 struct MarginalProblem {
   const ProblemBuilder* builder = nullptr;
-  // Camera and PR nodes, with the others eliminated.
+  // The variable nodes (camera and PR nodes), with the other nodes eliminated.
   ProblemConfig level_one;
   const SolverOptions* options = nullptr;
   // StrategyOptions::relinearize_above.
   double relinearize_above = 0.0;
-  // Since the solve began.
+  // A timer that was started with the solve.
   const Timer* timer = nullptr;
 };
 
-// The iterations of a ConfigSolver: Levenberg-Marquardt on the full energy, whose step is one of
-// Level I with the eliminated nodes behind it.
+// The iterations of a ConfigSolver: the Levenberg-Marquardt method on the full energy. Each step is
+// a step of Level I, followed by the back-substitution of the eliminated nodes.
 class MarginalSolve {
  public:
-  // `marginalization` has its problem set. Everything must outlive this.
+  // The problem of `marginalization` must be set. All arguments must outlive this object.
   MarginalSolve(const MarginalProblem& problem,
                 LevelSolver* level_one_solver,
                 Marginalization* marginalization,
                 DeformationState* state);
 
-  // Moves the state and fills status and message. Where it fails the state may have moved.
+  // Moves the state, and fills in status and message. If it fails, the state may have moved.
   void Iterate(SolveSummary* summary);
 
-  // Camera and PR nodes; and the eliminated ones, with the cost of their residuals.
+  // Return the summaries of the camera and PR nodes, and of the eliminated nodes with the cost of
+  // their residuals.
   const LevelSummary& level_one() const { return level_one_; }
   const LevelSummary& level_two() const { return level_two_; }
-  // False when not even a first step was tried; the energies are then not known.
+  // Returns false if not even a first step was tried; the energies are then unknown.
   bool energy_known() const { return energy_known_; }
   double initial_energy() const { return initial_energy_; }
   double energy() const { return energy_; }
@@ -57,21 +58,21 @@ class MarginalSolve {
   Step TakeStep(SolveSummary* summary);
   Step Judge(double rest, double prior, double eliminated, DeformationState* candidate);
   void Refuse();
-  // The last step of Level I was none, and not for want of anything to gain.
+  // Returns whether Level I made no step, although it had not converged.
   bool LevelOneWasRefused() const { return !level_one_moved_ && !level_one_converged_; }
 
   const MarginalProblem& problem_;
   const SolverOptions& options_;
-  // The problem's, with the prior.
+  // The config of the problem, with the prior as an additional residual.
   ProblemConfig config_;
   LevelSolver* level_one_solver_;
   Marginalization* marginalization_;
   DeformationState* state_;
   LevelSummary level_one_;
   LevelSummary level_two_;
-  // Of Level I.
+  // The trust region of Level I.
   TrustRegion region_;
-  // Of the eliminated nodes.
+  // The damping of the eliminated nodes.
   const double least_damping_;
   double damping_;
   // Whether the linearisation is at the present state.
@@ -80,7 +81,7 @@ class MarginalSolve {
   double initial_energy_ = 0.0;
   double energy_ = 0.0;
   int level_one_steps_ = 1;
-  // Of the last step of Level I.
+  // The outcome of the last step of Level I.
   bool level_one_moved_ = false;
   bool level_one_converged_ = false;
 };

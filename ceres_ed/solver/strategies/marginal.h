@@ -9,8 +9,8 @@
 
 namespace ceres_ed {
 
-// Level I moves the PR nodes and some rings of PI nodes around them. The nodes within the reach of
-// these are eliminated, and those behind are held.
+// Level I moves the PR nodes and some rings of PI nodes around them. Nodes within the reach of
+// these nodes are eliminated, and nodes beyond it are held.
 inline void ChooseMarginal(const DecouplingInputs& inputs, Decoupling* nodes) {
   const auto all = [](int) { return true; };
   for (const int node : inputs.point_relevant->nodes()) nodes->moved.Add(node);

@@ -7,24 +7,25 @@
 
 namespace ceres_ed {
 
-// How the nodes that nothing observes come to follow the others.
+// How nodes without observations follow the others.
 enum class HiddenNodes {
   // Level I moves all of them.
   kMoveAlong,
   // Level I holds them, and Level II moves them afterwards (Eq. 15).
   kFollow,
-  // They are eliminated from Level I. Those that are out of reach follow as above.
+  // They are eliminated from Level I. Nodes out of its reach follow by Level II.
   kAreEliminated,
 };
 
+// One strategy: its mode, and how it chooses nodes.
 struct StrategyInfo {
   SolveMode mode = SolveMode::kBatch;
   HiddenNodes hidden = HiddenNodes::kMoveAlong;
-  // Fills in an empty Decoupling. Both of its sets become sorted by number.
+  // Fills in an empty Decoupling. Both of its sets must be in ascending order.
   void (*choose)(const DecouplingInputs& inputs, Decoupling* nodes) = nullptr;
 };
 
-// The row of a mode.
+// Returns the row of a mode.
 const StrategyInfo& FindStrategy(SolveMode mode);
 
 }  // namespace ceres_ed
