@@ -1,4 +1,4 @@
-// How a fit is done.
+// The options of a fit.
 #ifndef CERES_ED_REGISTRATION_FIT_OPTIONS_H_
 #define CERES_ED_REGISTRATION_FIT_OPTIONS_H_
 
@@ -14,179 +14,210 @@
 
 namespace ceres_ed {
 
-// Which pairs are believed.
+// Options of the matching: which pairs are accepted.
 struct MatchingOptions {
-  // No pair farther apart than this, > 0, in the unit of the surfaces.
+  // Pairs farther apart than this are rejected; in the unit of the surfaces, > 0, default
+  // unlimited.
   double max_distance = std::numeric_limits<double>::infinity();
-  // No pair whose normals differ by more, in (0, 180] degrees.
+  // Pairs whose normals differ by more than this are rejected; degrees, (0, 180], default 75.
   double max_angle_deg = 75.0;
-  // No pair farther apart than this multiple of the robust standard deviation of all distances
-  // (1.4826 times their median), > 0.
+  // Pairs farther apart than this multiple of the robust standard deviation of all distances
+  // (1.4826 times their median) are rejected; > 0, default 40.
   double max_deviations = 40.0;
-  // No pair whose closest point lies on a border: the other surface goes on where this one ends.
+  // Whether pairs are rejected whose closest point lies on a border, because the other surface
+  // continues there beyond the end of this one. Default true.
   bool reject_borders = true;
-  // Point-to-plane to the mean of both normals instead of the target's.
+  // Whether point-to-plane distances use the mean of both normals, and not the normal of the
+  // target. Default true.
   bool symmetric_normals = true;
-  // Pairs this near are kept whatever the deviations say, >= 0: the resolution of the surfaces.
+  // Pairs at most this far apart are accepted whatever the deviations are: the resolution of the
+  // surfaces; >= 0, default 0.
   double resolution = 0.0;
-  // Fill in Matches::details: what only energies beyond the built-in ones of a fit look at.
+  // Whether Matches::details are filled in. Only energies beyond the built-in ones of a fit use
+  // them. Default false.
   bool with_details = false;
-  // The result doesn't depend on it, >= 1.
+  // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
 
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<MatchingOptions>& Rows();
 };
 
+// Options of the rigid stage.
 struct RigidOptions {
-  // Also estimate a scale.
+  // Whether a scale is estimated, too; default false.
   bool with_scale = false;
-  // No pair whose normals differ by more, in (0, 180] degrees.
+  // Pairs whose normals differ by more than this are rejected; degrees, (0, 180], default 60.
   double max_angle_deg = 60.0;
-  // Distance, as a fraction of the target's diagonal, at which a point counts half as missed when
-  // poses are compared, > 0.
+  // The distance, as a fraction of the target's diagonal, at which a point counts half as missed
+  // when poses are compared; > 0, default 0.03.
   double score_width = 0.03;
-  // The given pose, refined, is good enough not to search for another one when less than this of
-  // the surface that is explained better is missed, in [0, 1].
+  // There is no search for other poses if the refined given pose misses less than this share of the
+  // surface that is explained better; [0, 1], default 0.15.
   double good_score = 0.15;
-  // A start that is not the given pose must beat it by this factor to be preferred, in (0, 1]:
-  // inputs of the same sensor are more often near their place than not.
+  // Another pose replaces the given one only if it misses less than this share of what the given
+  // pose misses, because inputs of the same sensor are usually near their place; (0, 1], default
+  // 0.85.
   double preference = 0.85;
-  // The result doesn't depend on it, >= 1.
+  // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
-  // Asked between starts; true ends the search with the best so far.
+  // Called between starts; if it returns true, the search ends with the best pose so far.
   std::function<bool()> should_stop;
 
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<RigidOptions>& Rows();
 };
 
-// How a finish is done. Lengths are in edges of the source (of bare points: distances to the
-// nearest ones), so that a finish is as fine as the source is.
+// Options of the finish. Lengths are in edges of the source (for bare points: in distances to the
+// nearest points), so that a finish is as fine as the source is.
 struct FinishOptions {
-  // Rounds of matching, and solves in each, >= 1.
+  // The number of rounds of matching, and the number of solves in each round; both >= 1, defaults 3
+  // and 2.
   int rounds = 3;
   int steps = 2;
-  // Waves of the displacement shorter than about 2 pi times this are flattened, > 0. Noise of the
-  // target makes it longer.
+  // Waves of the displacement that are shorter than about 2 pi times this length are flattened; >
+  // 0, default 1. Noise of the target makes this length longer.
   double smoothing = 1.0;
-  // No finish where noise asks for a longer smoothing than this, >= 0: the graph has followed what
-  // is longer, and what is shorter is noise.
+  // There is no finish if the noise requires a longer smoothing than this: the graph has already
+  // fitted longer waves, and shorter ones are noise. >= 0, default 6.
   double max_smoothing = 6.0;
-  // Over this length a displacement fades where nothing is matched, > 0.
+  // The length over which a displacement fades where nothing is matched; > 0, default 10.
   double fade = 10.0;
-  // Share of point-to-point instead of point-to-plane, in [0, 1]: holds points along the surface.
+  // The share of point-to-point distances; the rest is point-to-plane. It keeps points from sliding
+  // along the surface. [0, 1], default 0.1.
   double point_to_point_share = 0.1;
-  // Width of the Welsch loss, in robust standard deviations of the distances, > 0.
+  // The width of the Welsch loss, in robust standard deviations of the distances; > 0, default 12.
   double loss_width = 12.0;
 
-  // False, with a sentence in `error`, when a value is out of range.
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<FinishOptions>& Rows();
 };
 
-// Weights of the objective (Eq. 3), >= 0. Each energy is a mean over its residuals, so that a
-// weight means the same at any scale and at any density of points and nodes: distances count in
-// hundredths of the source's diagonal, E_reg relative to the node spacing.
+// The weights of the objective (Eq. 3), all >= 0 and without unit. Each energy is a mean over its
+// residuals, so that a weight has the same meaning at any scale and at any density of points and
+// nodes: distances are in hundredths of the source's diagonal, and E_reg is relative to the node
+// spacing.
 struct FitWeights {
   double rotation = 1.0;
   double regularization = 1.0;
   double data = 1.0;
   double landmark = 10.0;
   double fixed = 1e4;
-  // Share of the data weight that goes to point-to-point instead of point-to-plane, in [0, 1].
+  // The share of the data weight that goes to point-to-point distances; the rest is point-to-plane.
+  // [0, 1], default 0.005.
   double point_to_point_share = 0.005;
 
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<FitWeights>& Rows();
 };
 
-// From stiff to soft, and from few nodes to many: E_rot and E_reg start at `initial_stiffness`
-// times their weights and come down in equal ratios, spread over the levels.
+// The schedule of a fit, from stiff to soft and from few nodes to many. The factor of the weights
+// of E_rot and E_reg starts at `initial_stiffness` and decreases in equal ratios, which are spread
+// over the levels.
 struct FitSchedule {
-  // Graphs that are fitted one after the other, each with twice the node spacing of the next, >= 1.
+  // The number of graphs that are fitted one after the other, each with twice the node spacing of
+  // the next; 1 to 5, default 2.
   int levels = 2;
-  // > 0. Without a target the weights themselves hold from first to last.
+  // The stiffness at the start; > 0, default 100. Without a target the factor is always 1.
   double initial_stiffness = 100.0;
-  // What a clean target ends with, > 0 and at most the initial one.
+  // The stiffness at the end for a target without noise; > 0 and at most the initial one, default
+  // 0.03.
   double final_stiffness = 0.03;
-  // Noise adds to both ends: this times the cube of its standard deviation (what smoothing leaves
-  // of it) in hundredths of the source's diagonal, >= 0. Weak noise averages out by itself.
+  // Noise increases both stiffnesses by this factor times the cube of its standard deviation (after
+  // smoothing) in hundredths of the source's diagonal. Weak noise averages out by itself. >= 0,
+  // default 3000.
   double noise_stiffness = 3000.0;
-  // Steps of stiffness on the coarser levels together, and on the last one, >= 1.
+  // The number of steps of stiffness on all coarser levels together, and on the last one; both >=
+  // 1, defaults 4 and 2.
   int coarse_steps = 4;
   int fine_steps = 2;
-  // Rounds of matching and solving in each step, >= 1; fewer where the surface stands still.
+  // The largest number of rounds of matching and solving in each step, which ends earlier if the
+  // surface stands still; >= 1, default 4.
   int max_rounds = 4;
-  // Mean motion of the source in a round, as a fraction of its diagonal, that counts as standing
-  // still, > 0.
+  // The surface stands still if the mean motion of the source in a round is less than this fraction
+  // of its diagonal; > 0, default 2e-4.
   double tolerance = 2e-4;
-  // Iterations of the solver in a round, >= 1.
+  // The number of iterations of the solver in a round; >= 1, default 1.
   int solver_iterations = 1;
 
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<FitSchedule>& Rows();
 };
 
+// The progress of a fit.
 struct FitProgress {
-  // "rigid" once before the source is placed; "fit" after each round of matching and solving.
+  // "rigid" once before the source is placed, and "fit" after each round of matching and solving.
   std::string stage;
-  // In [0, 1].
+  // The part of the fit that is done, in [0, 1].
   double fraction = 0.0;
-  // 0 while the stage is "rigid", as are the figures below.
+  // The number of accepted pairs. While the stage is "rigid", this and the values below are 0.
   int inliers = 0;
-  // Of the inliers, in the target's unit.
+  // The root mean square point-to-plane distance of the accepted pairs, in the target's unit.
   double rms_plane = 0.0;
+  // The energy of the last round, without unit.
   double energy = 0.0;
 };
 
+// All options of a fit.
 struct FitOptions {
+  // How each round is solved.
   StrategyOptions strategy;
-  // node_spacing is in the source's unit; 0 = automatic.
+  // The options of the graph. node_spacing is in the unit of the source; 0 means automatic.
   GraphOptions graph;
+  // The weights of the energies, and their change during the fit.
   FitWeights weights;
   FitSchedule schedule;
-  // Type of the data loss; its width follows the spread of the residuals, a multiple of their
-  // robust standard deviation, > 0.
+  // The type of the data loss, and its width as a multiple of the robust standard deviation of the
+  // residuals; > 0, defaults Welsch and 20.
   LossType loss = LossType::kWelsch;
   double loss_width = 20.0;
-  // While there are few nodes a careful way is tried, too, with a narrower loss and normals that
-  // agree better (degrees): limbs that are far from their place wait until what carries them is
-  // near, where the bold way fetches them at once. What leaves less unmatched goes on.
+  // On the coarse graphs a careful way is tried as well, with a narrower loss (> 0, default 5) and
+  // normals that agree better (degrees, (0, 180], default 50): limbs far from their place do not
+  // move until the parts that support them are near, whereas the bold way moves them at once. The
+  // fit continues with the way that leaves less unmatched.
   double careful_loss_width = 5.0;
   double careful_angle_deg = 50.0;
-  // max_distance is in the target's unit.
+  // The options of the matching; max_distance is in the unit of the target.
   MatchingOptions matching;
-  // Points of each surface that are matched in the last step, >= 10; half of them in the steps of
-  // the last level before, and an eighth on the coarser levels, but there no fewer than 1000.
+  // The number of points of each surface that are matched in the last step, >= 10, default 12000.
+  // The earlier steps of the last level use half of them, and the coarser levels an eighth, but at
+  // least 1000.
   int max_samples = 12000;
-  // Smooth a noisy target before it is followed.
+  // Whether a noisy target is smoothed before it is fitted; default true.
   bool denoise = true;
+  // Whether a rigid motion is searched before anything deforms; default true.
   bool rigid_first = true;
   RigidOptions rigid;
-  // More energies, by name; means over their residuals as the built-in ones.
+  // Additional energies, by name. Like the built-in ones they are means over their residuals.
   std::vector<EnergySpec> extra_energies;
-  // Whether every point is moved onto the target in the end, beyond what the nodes can do. Not
-  // where the fit is stopped early, nor where the noise is larger than what is left.
+  // Whether every point is moved onto the target at the end, beyond what the nodes can do; default
+  // true. There is no finish if the fit is stopped early, or if the noise is larger than the
+  // remaining distances.
   bool finish = true;
   FinishOptions finish_options;
-  // Lay faces flat again that the fit folded over.
+  // Whether faces that the fit has folded over are laid flat again; default true.
   bool unfold = true;
-  // Work out how well every source point is determined (FitResult::uncertainty).
+  // Whether the determination of every source point is computed (FitResult::uncertainty); default
+  // false.
   bool covariance = false;
-  // The result doesn't depend on it, >= 1.
+  // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
-  // Wall time of the whole fit, seconds, > 0; infinity: none.
+  // The wall time of the whole fit in seconds, > 0; default infinity, which means no limit.
   double time_limit_s = std::numeric_limits<double>::infinity();
-  // Asked often; true ends the fit with the best state so far.
+  // Called often; if it returns true, the fit ends with the best state so far.
   std::function<bool()> should_stop;
+  // Called with the progress of the fit.
   std::function<void(const FitProgress&)> on_progress;
 
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<FitOptions>& Rows();
 };
 

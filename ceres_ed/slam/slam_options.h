@@ -1,4 +1,4 @@
-// How a sequence is tracked and mapped.
+// The options of tracking and mapping.
 #ifndef CERES_ED_SLAM_SLAM_OPTIONS_H_
 #define CERES_ED_SLAM_SLAM_OPTIONS_H_
 
@@ -13,13 +13,13 @@
 
 namespace ceres_ed {
 
-// What decides where the camera is.
+// How the pose of the camera is determined.
 enum class CameraMode {
-  // Rigid alignment first, then along with the nodes, under a pose prior.
+  // It is estimated: first by rigid alignment, then together with the nodes, under a pose prior.
   kEstimate,
   // It never moves.
   kFixed,
-  // The poses that come with the frames.
+  // It is given with the frames.
   kGiven,
 };
 
@@ -33,7 +33,8 @@ constexpr std::array<NamedValue<CameraMode>, 3> NamesOf(CameraMode) {
 enum class LevelTwoMode {
   // In every frame.
   kFull,
-  // When what pulls at it has moved; the others are left behind until somebody asks for them.
+  // When its surroundings have moved. The other nodes are left for later, until the map is
+  // requested.
   kLazy,
 };
 
@@ -41,159 +42,180 @@ constexpr std::array<NamedValue<LevelTwoMode>, 2> NamesOf(LevelTwoMode) {
   return {{{"full", LevelTwoMode::kFull}, {"lazy", LevelTwoMode::kLazy}}};
 }
 
-// A wave goes out from what has moved: the unsettled nodes, and so many rings around them, are
-// solved with the rest held; those at the rim that have moved unsettle the nodes behind them.
+// Options of lazy Level II, which works in waves: the unsettled nodes, and some rings around them,
+// are solved while the others are held. Nodes at the rim that have moved unsettle the nodes beyond
+// them.
 struct LazyOptions {
-  // Changes that are smaller unsettle nobody, map units, > 0.
+  // Changes smaller than this unsettle no node; map units, > 0, default 0.01.
   double tolerance = 0.01;
-  // Rings around the unsettled nodes, >= 1.
+  // The number of rings around the unsettled nodes, >= 1; default 3.
   int reach = 3;
-  // Waves a frame at most, >= 1; what is unsettled then waits for the next frame.
+  // The largest number of waves in a frame, >= 1; default 1. Nodes that are unsettled afterwards
+  // wait for the next frame.
   int waves_per_frame = 1;
-  // Unsettled nodes that a wave starts from at most, those with the largest changes, >= 1: keeps a
-  // frame's time even where nothing holds the tissue.
+  // The largest number of unsettled nodes from which a wave starts, those with the largest changes;
+  // >= 1, default 1000. It limits the time of a frame even if nothing holds the tissue.
   int max_seeds = 1000;
 
-  // False, with the option and what was expected in `error`, when a value is out of range.
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<LazyOptions>& Rows();
 };
 
+// Options of the levels of a frame.
 struct LevelsOptions {
-  // Lengths are node spacings, and the data are counted per PR node, so that these mean the same
-  // at any scale and density. All >= 0.
+  // The weights of the energies, all >= 0 and without unit. Lengths are in node spacings and the
+  // data are counted per PR node, so that a weight has the same meaning at any scale and density.
   double rotation_weight = 0.1;
   double regularization_weight = 0.1;
-  // Of nodes to where they are thought to be: holds what nobody sees.
+  // The weight of the expected node positions, which holds nodes that are not seen.
   double node_prior_weight = 0.02;
   double plane_weight = 1.0;
-  // Of one feature against one plane.
+  // The weight of one feature relative to one plane.
   double feature_weight = 4.0;
-  // Pull of the pose prior: spreads in degrees and map units, > 0.
+  // The standard deviations of the pose prior, in degrees and map units; > 0, defaults 0.5 and 0.1.
   double prior_rotation_deg = 0.5;
   double prior_translation = 0.1;
+  // Whether Level I moves the camera; default true.
   bool camera_variable = true;
-  // Which nodes a level moves. By default kTwoLevel; kMarginal eliminates the PI nodes within 8
-  // rings, or all of them where Level II is full.
+  // Which nodes a level moves. The default is kTwoLevel. kMarginal eliminates the PI nodes within 8
+  // rings, or all of them if Level II is full.
   StrategyOptions strategy = TwoLevels();
   LevelTwoMode level_two = LevelTwoMode::kLazy;
   LazyOptions lazy;
-  // One step by default: the observations change with it. More are taken only where the first ones
-  // bring nothing.
+  // The limits of a solve. The default is one step, because the observations change with each step.
+  // More steps are taken only if the first ones have no effect.
   SolverOptions solver = OneStep();
-  // More energies, by name.
+  // Additional energies, by name.
   std::vector<EnergySpec> energies;
 
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<LevelsOptions>& Rows();
-  // The defaults of `strategy` and of `solver`.
+  // Return the defaults of `strategy` and of `solver`.
   static StrategyOptions TwoLevels();
   static SolverOptions OneStep();
 };
 
+// Options of the tracking of corners from picture to picture.
 struct PixelTrackerOptions {
-  // Side of the window that is matched, pixels, odd, >= 3.
+  // The side of the window that is compared; pixels, an odd number in [3, 255], default 17.
   int window = 17;
+  // The number of levels of the image pyramid, in [1, 16]; default 3.
   int pyramid_levels = 3;
-  // Shades wider than this are taken for light and removed, pixels, > 0.
+  // Shades wider than this are treated as illumination and removed; pixels, (0, 100], default 4.
   double light_radius = 4.0;
-  // A corner tracked forward and back again must return to within this, pixels, > 0.
+  // A corner that is tracked forward and backward must return to within this distance; pixels, > 0,
+  // default 0.7.
   double max_round_trip = 0.7;
-  // Between two corners, pixels, >= 1.
+  // The smallest distance between two corners; pixels, >= 1, default 12.
   double min_distance = 12.0;
-  // Strength of the weakest corner relative to the strongest, in (0, 1).
+  // The strength of the weakest corner relative to the strongest, in (0, 1); default 0.005.
   double quality = 0.005;
-  // Corners are followed on so many threads, >= 1; the result doesn't depend on it.
+  // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
 
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<PixelTrackerOptions>& Rows();
 };
 
+// Options of the corners that are attached to the map.
 struct FeatureOptions {
-  // Corners wanted in view, >= 0.
+  // The wanted number of corners in view, >= 0; default 400.
   int count = 400;
-  // A corner that stays farther from where the map has it than this many deviations is dropped.
+  // A corner is removed if it remains farther from its position on the map than this many
+  // deviations; > 0, default 6.
   double max_deviations = 6.0;
   PixelTrackerOptions pixels;
 
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<FeatureOptions>& Rows();
 };
 
-// Lengths in map units (node spacings).
+// Options of the map's growth. Lengths are in map units (node spacings).
 struct MapGrowthOptions {
-  // Between new points, > 0.
+  // The spacing of new points, > 0; default 0.2.
   double point_spacing = 0.2;
-  // A point farther from every node than this asks for a new node, > 0.
+  // A point farther than this from every node gets a new node; > 0, default 1.
   double node_coverage = 1.0;
-  // Partners that a new node takes, >= 1.
+  // The number of nodes to which a new node is joined, >= 1; default 6.
   int edges_per_node = 6;
-  // Patches turned farther from the camera are left until they are seen better, degrees.
+  // Patches that are turned farther away from the camera than this are not added until they are
+  // seen better; degrees, (0, 90], default 75.
   double max_view_angle_deg = 75.0;
 
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<MapGrowthOptions>& Rows();
 };
 
-// How depth images are smoothed.
+// Options of the smoothing of depth images.
 struct ObservedSurfaceOptions {
-  // Pixels between two cells of the grid, >= 1.
+  // The distance between two cells of the grid; pixels, >= 1, default 2.
   int cell = 2;
-  // A plane is fitted to the (2 radius + 1)^2 pixels around a cell, >= 1.
+  // A plane is fitted to the (2 radius + 1)^2 pixels around a cell; pixels, [1, 1000], default 3.
   int radius = 3;
-  // Slopes steeper than this against the picture are taken for a jump; degrees, (0, 90).
+  // Slopes steeper than this relative to the picture are treated as a jump of the depth; degrees,
+  // (0, 90), default 80.
   double max_slope_deg = 80.0;
-  // Threads of the fit, >= 1; the result doesn't depend on it.
+  // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
 
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<ObservedSurfaceOptions>& Rows();
 };
 
+// Options of the memory of tissue motion.
 struct TissueMemoryOptions {
-  // Moments that are kept, >= 2; when there are more, every second one is forgotten.
+  // The largest number of moments that are stored, >= 2, default 200. If there are more, every
+  // second one is removed.
   int max_moments = 200;
-  // Two moments whose tissue differs by less are alike, map units, > 0.
+  // Two moments are similar if their tissue differs by less than this; map units, > 0, default
+  // 0.05.
   double likeness = 0.05;
-  // A moment counts in full when this many nodes in view were in view then too, >= 1.
+  // A moment has full weight if at least this many nodes in view now were also in view then; >= 1,
+  // default 20.
   int min_common = 20;
 
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<TissueMemoryOptions>& Rows();
 };
 
+// All options of tracking and mapping.
 struct SlamOptions {
+  // How the pose of the camera is determined; default kEstimate.
   CameraMode camera = CameraMode::kEstimate;
-  // Metres; 0 = so that about `nodes_in_view` nodes cover what the first frame shows.
+  // The node spacing in metres, >= 0. With 0, the default, about `nodes_in_view` (>= 4, default
+  // 250) nodes cover the part that the first frame shows.
   double node_spacing = 0.0;
   int nodes_in_view = 250;
-  // Nodes that carry a point, in [1, kMaxBoundNodes].
+  // The number of nodes to which a point is bound, in [1, kMaxBoundNodes]; default 4.
   int neighbors = 4;
-  // Follow corners of the colour image, where there is one.
+  // Whether corners of the colour pictures are tracked, if there are colour pictures; default true.
   bool features = true;
-  // Times at most that a frame is associated and Level I takes a step, >= 1.
+  // The largest number of rounds of association and Level I in a frame, >= 1; default 4.
   int rounds = 4;
-  // Observations that Level I takes, evenly chosen among more, >= 100.
+  // The number of observations that Level I uses, chosen evenly among all; >= 100, default 6000.
   int max_observations = 6000;
-  // Number of observations after which the running average of a point forgets, >= 1.
+  // The number of observations after which the running average of a point forgets older ones; >= 1,
+  // default 20.
   double max_point_weight = 20.0;
   TissueMemoryOptions memory;
-  // Hold every n-th frame against the batch solve of its last problem, on a copy; 0 = none.
+  // Every n-th frame is compared with the batch solution of its last problem, on a copy of the map;
+  // >= 0. With 0, the default, no frame is.
   int verify_every = 0;
-  // Threads of everything that a frame takes, whatever the options below say, >= 1; the result
-  // doesn't depend on it.
+  // The number of threads for everything in a frame, which replaces the numbers in the options
+  // below; >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
   LevelsOptions levels;
   FeatureOptions feature;
   MapGrowthOptions growth;
   ObservedSurfaceOptions surface;
 
-  // False, with the option and what was expected in `error`, when a value is out of range.
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<SlamOptions>& Rows();
 };
 

@@ -1,4 +1,4 @@
-// What a tracker takes of a frame, and what it reports.
+// The input of a tracker for a frame, and its report.
 #ifndef CERES_ED_SLAM_SLAM_TYPES_H_
 #define CERES_ED_SLAM_SLAM_TYPES_H_
 
@@ -11,32 +11,36 @@
 
 namespace ceres_ed {
 
-// One frame as it comes from a sensor. Lengths in metres.
+// One frame of a sensor. Lengths are in metres.
 struct SlamFrame {
+  // The number of the frame.
   int number = 0;
-  // Of the camera's size; a pointer to a DepthImage will do, or pixels that are elsewhere.
+  // The depth image, of the size of the camera: a pointer to a DepthImage, or a view of other
+  // pixels.
   DepthView depth;
-  // Empty: none.
+  // The colour image; empty if there is none.
   ColorView color;
-  // For CameraMode::kGiven.
+  // The pose for CameraMode::kGiven; null if it is not known.
   const CameraPose* world_from_camera = nullptr;
-  // Whether all of the map will be asked for after this frame.
+  // Whether the whole map will be requested after this frame.
   bool catch_up = false;
 };
 
+// What happened to a frame.
 enum class FrameStatus {
-  // Camera and tissue were followed.
+  // Camera and tissue were tracked.
   kTracked,
-  // The first frame that had something to show.
+  // This is the first frame with usable depth; the map was created from it.
   kInitialized,
-  // The camera had jumped and was found again.
+  // The camera had jumped and was found by a search.
   kRelocalized,
-  // Camera not found: the map is as it was.
+  // The camera was not found; the map is unchanged.
   kLost,
-  // Nothing that could be used in this frame.
+  // The frame has no usable depth.
   kSkipped,
 };
 
+// Returns the names of the values; they are part of the files that programs write.
 constexpr std::array<NamedValue<FrameStatus>, 5> NamesOf(FrameStatus) {
   return {{{"tracked", FrameStatus::kTracked},
            {"initialized", FrameStatus::kInitialized},
@@ -45,25 +49,25 @@ constexpr std::array<NamedValue<FrameStatus>, 5> NamesOf(FrameStatus) {
            {"skipped", FrameStatus::kSkipped}}};
 }
 
-// Lengths are in map units.
+// The difference between the result of the levels and the batch solution. Lengths are in map units.
 struct BatchComparison {
-  // False where there was nothing to compare, or the batch solve failed.
+  // False if there was nothing to compare, or if the batch solve failed.
   bool done = false;
-  // Of all residuals of the frame's last problem: as the levels left it, and at the minimum.
+  // The energy of all residuals of the frame's last problem: after the levels, and at the minimum.
   double energy = 0.0;
   double batch_energy = 0.0;
-  // Between the places of all nodes, g_j + t_j.
+  // The differences of the positions g_j + t_j of all nodes, and of the camera.
   double node_mean = 0.0;
   double node_max = 0.0;
   double camera_deg = 0.0;
   double camera_distance = 0.0;
   int iterations = 0;
 
-  // (E - E_batch) / E_batch.
+  // Returns the relative gap (E - E_batch) / E_batch.
   double Gap() const { return (energy - batch_energy) / batch_energy; }
 };
 
-// Wall time of a frame's stages, seconds.
+// The wall times of the stages of a frame, in seconds.
 struct FrameTimes {
   double observe = 0.0;
   double associate = 0.0;
@@ -76,32 +80,33 @@ struct FrameTimes {
   double verify = 0.0;
 };
 
+// The report on one frame.
 struct FrameReport {
   int number = 0;
   FrameStatus status = FrameStatus::kSkipped;
   FrameTimes times;
   int nodes = 0;
-  // PR nodes, and all that Level I has moved.
+  // The number of PR nodes, and of all nodes that Level I has moved.
   int point_relevant = 0;
   int active = 0;
-  // PI nodes that Level I has moved by back-substitution, where it marginalises.
+  // The number of PI nodes that Level I has moved by back-substitution, if it marginalises.
   int marginalized = 0;
-  // PI nodes that Level II has moved, counted by wave.
+  // The number of PI nodes that Level II has moved, summed over its waves.
   int updated_pi = 0;
-  // Map points with an observation in this frame, and all.
+  // The number of map points with an observation in this frame, and of all map points.
   int points = 0;
   int map_points = 0;
   int inliers = 0;
   int features = 0;
-  // Of the inliers' distances to their planes, metres.
+  // The root mean square distance of the inliers from their planes, in metres.
   double rms_plane = 0.0;
-  // Of Level I, no unit.
+  // The energy of Level I, without unit.
   double energy = 0.0;
   int iterations = 0;
-  // The residual of an energy of the user's that could not be used, in a sentence that names it;
-  // empty where there was none. What it was part of has not moved.
+  // The residual of a user's energy that could not be evaluated, in a sentence that names it; empty
+  // if there was none. The level to which it belongs has not moved anything.
   std::string fault;
-  // Of frames that were verified.
+  // The comparison with the batch solution, in frames that were verified.
   BatchComparison batch;
 };
 

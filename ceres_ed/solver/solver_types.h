@@ -13,12 +13,12 @@
 
 namespace ceres_ed {
 
-// What minimises a level.
+// The minimiser of a level.
 enum class LinearSolver {
-  // ceres::Solve: the reference.
+  // ceres::Solve, which is the reference.
   kCeres,
-  // Block normal equations with a kept symbolic factor (block_level_solver.h): the same minimum in
-  // less time.
+  // Block normal equations whose symbolic factor is kept (block_level_solver.h): the same minimum
+  // in less time.
   kBlock,
 };
 
@@ -26,35 +26,40 @@ constexpr std::array<NamedValue<LinearSolver>, 2> NamesOf(LinearSolver) {
   return {{{"ceres", LinearSolver::kCeres}, {"block", LinearSolver::kBlock}}};
 }
 
-// Limits and tolerances of one solve; the defaults converge a problem in normalised units.
+// Limits and tolerances of one solve. With the defaults a problem in normalised units converges.
 struct SolverOptions {
-  // Of each level, >= 0.
+  // The largest number of iterations of each level, >= 0; default 50.
   int max_iterations = 50;
-  // Relative change of the cost at which a level is converged, >= 0.
+  // A level has converged if the relative change of the cost is less than this; >= 0, default 1e-6.
   double function_tolerance = 1e-6;
-  // Largest gradient entry at which a level is converged, >= 0.
+  // A level has converged if no entry of the gradient is larger than this; >= 0, default 1e-10.
   double gradient_tolerance = 1e-10;
-  // Relative size of a step at which a level is converged, >= 0.
+  // A level has converged if the relative size of a step is less than this; >= 0, default 1e-8.
   double parameter_tolerance = 1e-8;
-  // Levenberg-Marquardt damping is 1 / radius at the start, > 0. Large: nearly Gauss-Newton.
+  // The initial damping of the Levenberg-Marquardt method is 1 / radius; > 0, default 1e4. With a
+  // large radius the steps are nearly Gauss-Newton steps.
   double initial_trust_region_radius = 1e4;
-  // Threads of residual and Jacobian evaluation, >= 1. The result doesn't depend on it: that of
-  // kBlock to the bit, that of kCeres, which sums up the cost by thread, to rounding.
+  // The number of threads that evaluate residuals and Jacobians, >= 1, default 1. The result does
+  // not depend on it: with kBlock it has the same bits; with kCeres, which sums the cost per
+  // thread, it is the same up to rounding.
   int num_threads = 1;
-  // Wall time of the whole solve, seconds, > 0. The step under way is finished, and a two-level
-  // solve then lets PI nodes follow by up to three steps.
+  // The wall time of the whole solve in seconds, > 0; default 1e9. The current step is completed,
+  // and in a two-level solve the PI nodes then follow by up to three steps.
   double time_limit_s = 1e9;
-  // Asked after every iteration; true ends the solve with the best state so far, in the same way.
+  // Called after every iteration; if it returns true, the solve ends with the best state so far, in
+  // the same way.
   std::function<bool()> should_stop;
 
-  // False, with the option and what was expected in `error`, when a value is out of range.
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<SolverOptions>& Rows();
 };
 
+// How a solve ended.
 enum class SolveStatus { kFailed, kMaxIterations, kTimeLimit, kInterrupted, kConverged };
 
+// Returns the names of the values; they are part of the files that programs write.
 constexpr std::array<NamedValue<SolveStatus>, 5> NamesOf(SolveStatus) {
   return {{{"failed", SolveStatus::kFailed},
            {"max_iterations", SolveStatus::kMaxIterations},
@@ -63,7 +68,7 @@ constexpr std::array<NamedValue<SolveStatus>, 5> NamesOf(SolveStatus) {
            {"converged", SolveStatus::kConverged}}};
 }
 
-// What one level did.
+// What one level did. Times are in seconds.
 struct LevelSummary {
   int num_variable_nodes = 0;
   int iterations = 0;
@@ -73,30 +78,34 @@ struct LevelSummary {
   double solve_time_s = 0.0;
 };
 
-// The outcome of a solve. It starts out failed.
+// The result of a solve. Its initial status is failed.
 struct SolveSummary {
   SolveStatus status = SolveStatus::kFailed;
   std::string message = "not solved";
-  // The residual that made it fail (ProblemBuilder::CheckResiduals); empty where it was none.
+  // The residual that made the solve fail (ProblemBuilder::CheckResiduals()); empty if none did.
   std::string fault;
-  // Of the full problem (all residuals), before and after.
+  // The energy of the full problem (all residuals) before and after the solve.
   double initial_energy = 0.0;
   double final_energy = 0.0;
-  // In the order in which they were solved: one of batch, or Level I and Level II.
+  // The levels in the order in which they were solved: one level for batch, or Level I and Level
+  // II.
   std::vector<LevelSummary> levels;
 
-  // False when the state is what it was before the solve.
+  // Returns false if the solve failed; the state is then unchanged.
   bool IsUsable() const { return status != SolveStatus::kFailed; }
+  // Returns the sum of the iterations of all levels.
   int TotalIterations() const;
 };
 
+// Which nodes are moved together.
 enum class SolveMode {
-  // Every node at once.
+  // All nodes.
   kBatch,
-  // Camera and PR nodes (Eq. 14), then PI nodes (Eq. 15).
+  // The camera and the PR nodes (Eq. 14), then the PI nodes (Eq. 15).
   kTwoLevel,
-  // Camera and PR nodes with the PI nodes eliminated (Eq. 20), then PI nodes by back-substitution:
-  // the minimum of kBatch. Its levels are Level I and the residuals of the eliminated nodes.
+  // The camera and the PR nodes with the PI nodes eliminated (Eq. 20), then the PI nodes by
+  // back-substitution (Eq. 21). The minimum is that of kBatch. Its two levels are Level I and the
+  // residuals of the eliminated nodes.
   kMarginal,
 };
 
@@ -106,24 +115,26 @@ constexpr std::array<NamedValue<SolveMode>, 3> NamesOf(SolveMode) {
            {"marginal", SolveMode::kMarginal}}};
 }
 
-// Which strategy, and how it treats the seam.
+// The strategy of a solve, and its treatment of the seam.
 struct StrategyOptions {
   SolveMode mode = SolveMode::kBatch;
-  // Rings of PI nodes that Level I moves too, >= 0.
+  // The number of rings of PI nodes that Level I moves as well; >= 0, default 2.
   int rings = 2;
-  // Of kTwoLevel.
+  // For kTwoLevel: whether the edges of the seam are kept or cut; default kKeep.
   SeamEdges seam_edges = SeamEdges::kKeep;
   LinearSolver linear_solver = LinearSolver::kBlock;
-  // kMarginal: change of an entry of A_j of a PI node above which an elimination isn't used again,
-  // no unit, >= 0. It changes the number of steps and what one costs, not the minimum. Much above
-  // the default the soft modes of a large hidden part go astray, and steps are refused.
+  // For kMarginal: if an entry of A_j of a PI node changes by more than this, an elimination is not
+  // used again; without unit, >= 0, default 0.003. The value affects the number and the cost of the
+  // steps, not the minimum. With values much above the default, the soft modes of a large hidden
+  // part become wrong, and steps are refused.
   double relinearize_above = 0.003;
-  // kMarginal: rings beyond those that are eliminated, >= 1; the nodes behind them are held. -1:
-  // all that are left are eliminated.
+  // For kMarginal: the number of rings of nodes around Level I that are eliminated, >= 1; the nodes
+  // beyond them are held. With -1, the default, all remaining nodes are eliminated.
   int marginal_reach = -1;
 
+  // Returns false, with the option and what was expected in `error`, if a value is out of range.
   bool IsValid(std::string* error) const;
-  // The options as data: name, range and text of each.
+  // Returns the options as data: the name, range and text of each.
   static const OptionTable<StrategyOptions>& Rows();
 };
 

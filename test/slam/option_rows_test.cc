@@ -1,4 +1,4 @@
-// Every member of every Options struct has a row, so that none is out of the reach of IsValid().
+// Every member of every Options struct has a row, so that IsValid() checks all of them.
 #include <ceres_ed/graph/graph_options.h>
 #include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/registration/fit_options.h>
@@ -51,7 +51,7 @@ TYPED_TEST(EveryOptions, HasDefaultsInRange) {
   EXPECT_TRUE(TypeParam::Rows().Check(TypeParam(), &error)) << error;
 }
 
-// What a number may not be is refused by its row, whatever the others are.
+// A row refuses a value that it does not permit, whatever the values of the others are.
 TYPED_TEST(EveryOptions, RefusesNanAndWhatIsBeyondABound) {
   for (const auto& row : TypeParam::Rows()) {
     TypeParam options;
