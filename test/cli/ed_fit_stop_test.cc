@@ -20,7 +20,7 @@ class EdFitStopTest : public EdFitTest {
     const std::string pair = std::string(CERES_ED_SOURCE_DIR) + "/data/dolphin_bend/";
     std::vector<std::string> arguments = {pair + "source.ply",
                                           pair + "target.ply",
-                                          "--node_spacing=0.03",
+                                          "--node_spacing=0.015",
                                           "--output=" + (dir_ / "out.ply"),
                                           "--warp=" + (dir_ / "warp.json"),
                                           "--report=" + (dir_ / "report.json")};
