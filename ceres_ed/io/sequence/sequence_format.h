@@ -1,5 +1,5 @@
-// The layouts of depth sequences. To add one, write a file with its functions, and add a value to
-// SequenceFormat and a line to the table of sequence_format.cc.
+// The layouts of depth sequences. To add one, write a file whose name ends in _format with its
+// function, and add a value to SequenceFormat, and here a declaration and a row of the table.
 #ifndef CERES_ED_IO_SEQUENCE_SEQUENCE_FORMAT_H_
 #define CERES_ED_IO_SEQUENCE_SEQUENCE_FORMAT_H_
 
