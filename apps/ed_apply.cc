@@ -30,10 +30,10 @@ const OptionTable<ApplySettings>& ApplyRows() {
   return rows;
 }
 
-const OptionFlags<ApplySettings> flags(ApplyRows());
+const OptionFlags<ApplySettings> kFlags(ApplyRows());
 
 Outcome Run(const std::vector<std::string>& arguments) {
-  const StatusOr<ApplySettings> settings = flags.Read();
+  const StatusOr<ApplySettings> settings = kFlags.Read();
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
   const std::string& output = settings->output;
   if (output.empty()) return Outcome::Usage("flag --output is required");

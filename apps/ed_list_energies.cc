@@ -38,13 +38,13 @@ const OptionTable<ListSettings>& ListRows() {
   return rows;
 }
 
-const OptionFlags<ListSettings> flags(ListRows());
+const OptionFlags<ListSettings> kFlags(ListRows());
 
 Outcome Run(const std::vector<std::string>&) {
-  const StatusOr<ListSettings> settings = flags.Read();
+  const StatusOr<ListSettings> settings = kFlags.Read();
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
   EnergyRegistry registry;
-  const Outcome outcome = LoadEnergies(settings->plugin, {}, &registry);
+  Outcome outcome = LoadEnergies(settings->plugin, {}, &registry);
   if (outcome.code != ExitCode::kDone) return outcome;
   if (settings->format == ListFormat::kMarkdown) {
     std::fputs(ListEnergiesAsMarkdown(registry).c_str(), stdout);

@@ -31,14 +31,14 @@ const OptionTable<EvalSettings>& EvalRows() {
   return rows;
 }
 
-const OptionFlags<EvalSettings> flags(EvalRows());
+const OptionFlags<EvalSettings> kFlags(EvalRows());
 
 constexpr char kUses[] = "expected RESULT.ply TARGET.ply, or --sequence=SEQ --result=DIR";
 
 }  // namespace
 
 StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments) {
-  StatusOr<EvalSettings> read = flags.Read();
+  StatusOr<EvalSettings> read = kFlags.Read();
   if (!read.ok()) return read.status();
   EvalSettings settings = *std::move(read);
   if (settings.sequence.empty() && settings.result.empty()) {

@@ -49,7 +49,7 @@ const OptionTable<FitFlags>& FitFlagsRows() {
   return rows;
 }
 
-const OptionFlags<FitFlags> flags(FitFlagsRows());
+const OptionFlags<FitFlags> kFlags(FitFlagsRows());
 
 // Two files of one name would overwrite each other.
 Status CheckOutputNames(const FitSettings& settings) {
@@ -68,7 +68,7 @@ Status CheckOutputNames(const FitSettings& settings) {
 }  // namespace
 
 StatusOr<FitCommand> ReadFitFlags() {
-  StatusOr<FitFlags> read = flags.Read();
+  StatusOr<FitFlags> read = kFlags.Read();
   if (!read.ok()) return read.status();
   FitCommand command;
   static_cast<FitSettings&>(command) = std::move(read->settings);

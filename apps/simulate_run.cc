@@ -45,7 +45,7 @@ const OptionTable<SimulateFlags>& SimulateRows() {
   return rows;
 }
 
-const OptionFlags<SimulateFlags> flags(SimulateRows());
+const OptionFlags<SimulateFlags> kFlags(SimulateRows());
 
 StatusOr<SimulateFlags> ReadFlags(const std::string& scene) {
   const std::optional<SyntheticSceneKind> kind = FindByName<SyntheticSceneKind>(scene);
@@ -58,7 +58,7 @@ StatusOr<SimulateFlags> ReadFlags(const std::string& scene) {
   if (!frames.is_default && std::atoi(frames.current_value.c_str()) < 1) {
     return Status::Error("--frames=" + frames.current_value + ", expected 1 or more");
   }
-  StatusOr<SimulateFlags> read = flags.Read();
+  StatusOr<SimulateFlags> read = kFlags.Read();
   if (!read.ok()) return read;
   SimulateSettings& settings = read->settings;
   if (settings.output.empty()) return Status::Error("flag --output is required");

@@ -81,7 +81,7 @@ const OptionTable<SlamFlags>& SlamFlagsRows() {
   return rows;
 }
 
-const OptionFlags<SlamFlags> flags(SlamFlagsRows());
+const OptionFlags<SlamFlags> kFlags(SlamFlagsRows());
 
 // The flags with that rule, a line each.
 std::string FlagLines(ResumeRule rule) {
@@ -97,7 +97,7 @@ std::string FlagLines(ResumeRule rule) {
 }  // namespace
 
 StatusOr<SlamCommand> ReadSlamFlags() {
-  StatusOr<SlamFlags> read = flags.Read();
+  StatusOr<SlamFlags> read = kFlags.Read();
   if (!read.ok()) return read.status();
   SlamCommand command;
   static_cast<SlamSettings&>(command) = std::move(read->settings);

@@ -56,9 +56,7 @@ std::string OptionRange::Text(bool is_whole) const {
   const auto text = [is_whole](double value) {
     return is_whole ? std::to_string(std::llround(value)) : NumberText(value);
   };
-  const std::string kind = is_whole        ? "a whole number"
-                           : with_infinity ? "a number"
-                                           : "a finite number";
+  std::string kind = is_whole ? "a whole number" : with_infinity ? "a number" : "a finite number";
   if (std::isinf(lowest) && std::isinf(highest)) return kind;
   if (std::isinf(highest)) return kind + (open_below ? " > " : " >= ") + text(lowest);
   if (is_whole) return kind + " from " + text(lowest) + " to " + text(highest);

@@ -34,6 +34,9 @@ std::string FrameName(int frame, const std::string& extension) {
 }
 
 class EdEvalSequence : public ::testing::Test {
+ public:
+  ~EdEvalSequence() override { fs::remove_all(root_); }
+
  protected:
   EdEvalSequence() {
     const auto* const info = ::testing::UnitTest::GetInstance()->current_test_info();
@@ -43,7 +46,6 @@ class EdEvalSequence : public ::testing::Test {
     WriteSequence();
     for (int frame = 0; frame < kFrames; ++frame) WriteLive(frame, Eigen::Vector3d::Zero());
   }
-  ~EdEvalSequence() override { fs::remove_all(root_); }
 
   std::string Path(const std::string& name) const { return (root_ / name).string(); }
 

@@ -60,7 +60,7 @@ const OptionTable<Settings>& SettingsRows() {
   return rows;
 }
 
-const OptionFlags<Settings> flags(SettingsRows());
+const OptionFlags<Settings> kFlags(SettingsRows());
 const ProgramInfo kInfo = {"prog", "[IN]", "Does nothing.", "prog a", 0, 1};
 
 Status Parse(std::vector<const char*> words) {
@@ -72,7 +72,7 @@ StatusOr<Settings> ReadWith(const std::vector<const char*>& words) {
   const gflags::FlagSaver saver;
   const Status parsed = Parse(words);
   if (!parsed.ok()) return parsed;
-  return flags.Read();
+  return kFlags.Read();
 }
 
 std::string ErrorOf(const std::vector<const char*>& words) {

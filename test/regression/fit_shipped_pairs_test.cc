@@ -179,7 +179,7 @@ class RealPair : public ::testing::Test {
 };
 
 #define SKIP_WITHOUT(name) \
-  if (!Find(name)) GTEST_SKIP() << "no " << name << " in the folder that CERES_ED_DATA names"
+  if (!Find(name)) GTEST_SKIP() << "no " << (name) << " in the folder that CERES_ED_DATA names"
 
 TEST_F(RealPair, LiverSeenFromOneSide) {
   SKIP_WITHOUT("liver_partial");
