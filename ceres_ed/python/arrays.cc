@@ -26,7 +26,7 @@ py::array ArrayOf(const py::handle& object,
                   const char* kinds,
                   const char* expected) {
   py::array array = py::array::ensure(object);
-  // Of what it can't look into, numpy makes one object.
+  // numpy wraps a thing that it cannot look into as one object.
   if (!array || (array.ndim() == 0 && array.dtype().kind() == 'O')) {
     throw py::value_error(what + " is " + std::string(py::str(py::type::of(object))) +
                           ", expected an array of " + expected);

@@ -28,8 +28,8 @@ PointCloud FromArrays(const py::object& points,
   return cloud;
 }
 
-// Of trimesh and Open3D. A mesh of trimesh computes normals when asked for them, which the library
-// does, too, so they are taken of Open3D alone, where they may be those of a file.
+// Reads meshes of trimesh and Open3D. trimesh computes normals on request, which the library does,
+// too. So normals are taken from Open3D only, where they may come from a file.
 bool FromObject(const py::object& object, const std::string& what, PointCloud* cloud) {
   if (py::hasattr(object, "to_legacy")) {  // Open3D's tensors
     return FromObject(object.attr("to_legacy")(), what, cloud);

@@ -38,7 +38,7 @@ class Tracker {
                     bool catch_up);
   MapSnapshot Snapshot(const std::string& frame);
   Warp MakeWarp();
-  // Of the camera in the map, metres; nothing before the first frame.
+  // Returns the pose of the camera in the map, metres; nothing before the first frame.
   std::optional<Similarity> CameraPose() const;
   py::array PointRelevant() const;
   int NumPoints() const;

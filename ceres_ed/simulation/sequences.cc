@@ -22,7 +22,7 @@ constexpr int kDefaultVertices = 12000;
 constexpr int kMaxVertices = 1000000;
 constexpr int kMinPixels = 16;
 constexpr int kMaxPixels = 8192;
-// Of the view's length that the camera moves along a strip in a frame.
+// The share of the view's length by which the camera moves along a strip in each frame.
 constexpr double kStripStep = 0.05;
 constexpr double kMaxStripStep = 0.3;
 

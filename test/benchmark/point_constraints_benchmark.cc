@@ -27,7 +27,7 @@ constexpr double kConstraintWeight = 100.0;
 // Nearly Gauss-Newton: where the ends of a long chain move by thousands of node spacings, damping
 // by 1e-4 of the diagonal, the default, bends the step so much that the first ones are refused.
 constexpr double kTrustRegionRadius = 1e10;
-// Of the whole sheet.
+// The bend of the whole sheet.
 constexpr double kBend = 1.0;
 constexpr double kTwist = 0.5;
 

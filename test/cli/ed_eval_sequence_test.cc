@@ -101,7 +101,7 @@ class EdEvalSequence : public ::testing::Test {
     return RunProgramFile(AppPath("ed_eval"), arguments);
   }
 
-  // Of a run that must succeed.
+  // Returns the report of a run that must succeed.
   nlohmann::json Report() {
     const ProgramResult result = Eval({"--report=" + Path("report.json")});
     EXPECT_EQ(result.exit_code, 0) << result.err;

@@ -67,7 +67,7 @@ struct RingOptions {
   // The normals of the ring that is not bent, and what nobody asked for: uchar red, int label.
   bool extras = false;
   double scale = 1.0;
-  // Of the first vertex, in u and v.
+  // The phase of the first vertex, in u and v.
   double phase = 0.0;
   // Rows of text behind those of the ring.
   std::vector<std::string> more_vertices;
@@ -155,7 +155,7 @@ class EdFitTest : public ::testing::Test {
     WriteBytes(dir_ / "target.ply", RingPly(target));
   }
 
-  // Of the target, no more than the faces in this half of its columns.
+  // Writes only those faces of the target that lie in one half of its columns.
   void WriteHalfTarget() {
     RingOptions target;
     target.bent = true;

@@ -19,7 +19,7 @@ using ::testing::MatchesRegex;
 struct Fault {
   const char* energy;
   int exit_code;
-  // Of the line on stderr, behind the plugin's name.
+  // What the line on stderr says after the plugin's name.
   const char* says;
 };
 

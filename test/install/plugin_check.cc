@@ -15,7 +15,7 @@ using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a program, n
 
 namespace {
 
-// Of the sheet: the unit in which energies measure.
+// The diagonal of the sheet, which is the unit of length of energies.
 const double kDiagonal = std::sqrt(0.08);
 constexpr double kPull = 0.1;
 

@@ -129,7 +129,7 @@ class Sampler {
     return options;
   }
 
-  // Of the last column, which nothing observes.
+  // Returns a node of the last column, which nothing observes.
   int Hidden() const { return problem_.graph.num_nodes() - 1; }
 
   void Minimize(DeformationState* state) {

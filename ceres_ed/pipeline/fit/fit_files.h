@@ -15,7 +15,7 @@ namespace ceres_ed {
 // A PLY file, as reports describe it.
 struct CloudFile {
   std::string path;
-  // Of the whole file, with the points that cannot be used.
+  // The counts of the whole file, including the points that cannot be used.
   int points = 0;
   int faces = 0;
   // The diagonal of the bounding box of the points that are used, in the unit of the file.

@@ -38,7 +38,7 @@ FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& sla
   record["t_grow"] = times.grow;
   record["t_observe"] = times.observe;
   record["t_features"] = times.features;
-  // Of frames that are lost, too: the map is still there.
+  // Lost frames have these, too, because the map is still there.
   record["nodes"] = slam.map().graph().num_nodes();
   record["map_points"] = slam.map().num_points();
   record["pr"] = report.point_relevant;

@@ -84,7 +84,7 @@ class SlamSession {
   std::vector<FrameRecord> records_;
   // Index of the next frame.
   int next_ = 0;
-  // Of the depth of the last frame; empty where it could not be read.
+  // The fingerprint of the last frame's depth; empty if that could not be read.
   std::string depth_key_;
   // Why the run was stopped early, as reports have it.
   std::string stop_status_;

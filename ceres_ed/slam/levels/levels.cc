@@ -68,8 +68,8 @@ SolverOptions LevelsOptions::OneStep() {
   return options;
 }
 
-// Of the hidden nodes only those that are near Level I are marginalised: a frame's time must not
-// grow with the map.
+// Only hidden nodes near Level I are marginalised, because the time of a frame must not grow with
+// the map.
 StrategyOptions LevelsOptions::TwoLevels() {
   StrategyOptions options;
   options.mode = SolveMode::kTwoLevel;
