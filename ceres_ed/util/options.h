@@ -190,10 +190,6 @@ class OptionRows {
   OptionRows Internal(const std::string& name) const {
     return Change(name, [](Option* option) { option->group = OptionGroup::kInternal; });
   }
-  // For rows of a nested struct: shows the row of that name among the main ones.
-  OptionRows MainRow(const std::string& name) const {
-    return Change(name, [](Option* option) { option->group = OptionGroup::kMain; });
-  }
 
  private:
   template <typename F>
