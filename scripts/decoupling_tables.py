@@ -125,7 +125,7 @@ def draw_trade(axes, rows):
         name, gap, share = row["scheme"], row.get("gap"), row.get("share")
         if row["sequence"] != sequence or gap is None or share is None:
             continue
-        # Circles keep the seam, squares cut it; hollow ones solve all of Level II.
+        # Circles keep the boundary, squares cut it; hollow ones solve all of Level II.
         marker = {"keep": "o", "cut": "s"}.get(row["boundary"], "D")
         color = COLORS.get(name, KEEP_COLOR if row["boundary"] == "keep" else CUT_COLOR)
         hollow = row["level2"] == "full"

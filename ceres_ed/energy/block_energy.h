@@ -10,15 +10,26 @@
 #define CERES_ED_ENERGY_BLOCK_ENERGY_H_
 
 #include <ceres_ed/energy/energy.h>
-#include <ceres_ed/energy/optional_functor.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include <ceres/autodiff_cost_function.h>
 #include <cost_functions/node_parameters.h>
 
 namespace ceres_ed {
+
+// Calls visit(functor) if there is a functor. A function that makes functors may return an
+// std::optional to leave some out.
+template <typename Functor, typename Visit>
+void VisitFunctor(Functor functor, const Visit& visit) {
+  visit(std::move(functor));
+}
+template <typename Functor, typename Visit>
+void VisitFunctor(std::optional<Functor> functor, const Visit& visit) {
+  if (functor.has_value()) visit(*std::move(functor));
+}
 
 // Blocks whose sizes the compiler knows. The functor gets one argument for each of them.
 //

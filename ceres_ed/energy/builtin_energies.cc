@@ -1,6 +1,7 @@
-#include "ceres_ed/energy/builtin_energies.h"
-
 #include <ceres_ed/energy/catalogue/catalogue.h>
+#include <ceres_ed/energy/energy_registry.h>
+
+#include <glog/logging.h>
 
 namespace ceres_ed {
 

@@ -74,6 +74,13 @@ class EnergyRegistry {
   std::string origin_;
 };
 
+// Returns a new registry with the energies of catalogue/.
+EnergyRegistry BuiltinEnergies();
+
+// Adds these energies to `registry`. Fails a CHECK if one of their names is taken, so call it
+// before energies of your own are registered.
+void RegisterBuiltinEnergies(EnergyRegistry* registry);
+
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_ENERGY_ENERGY_REGISTRY_H_

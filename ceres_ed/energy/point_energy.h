@@ -4,7 +4,6 @@
 
 #include <ceres_ed/energy/block_energy.h>
 #include <ceres_ed/energy/energy.h>
-#include <ceres_ed/energy/optional_functor.h>
 #include <ceres_ed/energy/point_store.h>
 
 #include <algorithm>

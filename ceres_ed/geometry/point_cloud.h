@@ -36,6 +36,14 @@ struct PointCloud {
   bool HasTriangles() const { return !triangles.empty(); }
 };
 
+// A point of a cloud, and the position at which it belongs.
+struct Landmark {
+  // The index of the point in the cloud.
+  int point = -1;
+  // The position, in the frame and unit of the target.
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();
+};
+
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_GEOMETRY_POINT_CLOUD_H_

@@ -3,7 +3,6 @@
 #define CERES_ED_GRAPH_GRAPH_OPTIONS_H_
 
 #include <ceres_ed/util/named_values.h>
-#include <ceres_ed/util/options_fwd.h>
 
 #include <array>
 #include <string>

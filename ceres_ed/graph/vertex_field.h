@@ -1,21 +1,14 @@
-// Displacements of single points, and their interpolation between and around these points.
+// Displacements between and around the points of a field.
 #ifndef CERES_ED_GRAPH_VERTEX_FIELD_H_
 #define CERES_ED_GRAPH_VERTEX_FIELD_H_
+
+#include <ceres_ed/graph/warp.h>
 
 #include <vector>
 
 #include <Eigen/Core>
 
 namespace ceres_ed {
-
-// One displacement for each point, both in the same frame and unit. Points at the same position
-// have the same displacement.
-struct VertexField {
-  std::vector<Eigen::Vector3d> points;
-  std::vector<Eigen::Vector3d> displacements;
-
-  bool empty() const { return points.empty(); }
-};
 
 // Returns the displacement at each of `queries`. At a point of the field it is exactly that of the
 // point. Elsewhere it is the mean over the 4 nearest field points, weighted by 1 / d^2, so it is

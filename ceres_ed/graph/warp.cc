@@ -2,6 +2,7 @@
 
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/graph/binding.h>
+#include <ceres_ed/graph/vertex_field.h>
 #include <ceres_ed/util/parallel.h>
 
 #include <string>

@@ -8,7 +8,6 @@
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/graph/graph_options.h>
 #include <ceres_ed/graph/skinning.h>
-#include <ceres_ed/graph/vertex_field.h>
 #include <ceres_ed/util/status.h>
 
 #include <vector>
@@ -16,6 +15,15 @@
 #include <Eigen/Core>
 
 namespace ceres_ed {
+
+// One displacement for each point, both in the same frame and unit. Points at the same position
+// have the same displacement.
+struct VertexField {
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> displacements;
+
+  bool empty() const { return points.empty(); }
+};
 
 // The result of a fit. It is complete, so it can deform any other cloud:
 //   v~ = s R (sum_j w_j(v) [A_j (v - g_j) + g_j + t_j] + f(v)) + T

@@ -54,7 +54,7 @@ StatusOr<Landmark> ParseLandmark(const std::string& place,
   const StatusOr<int> index = ParseIndex(place, fields[0], num_vertices);
   if (!index.ok()) return index.status();
   Landmark landmark;
-  landmark.index = *index;
+  landmark.point = *index;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::optional<double> value = ParseDouble(fields[axis + 1]);
     if (!value.has_value() || !std::isfinite(*value)) {
@@ -101,11 +101,11 @@ StatusOr<std::vector<Landmark>> ReadLandmarks(const std::string& path, int num_v
     const StatusOr<Landmark> landmark = ParseLandmark(place, line, num_vertices);
     if (!landmark.ok()) return landmark.status();
     const auto [entry, is_new] =
-        seen.insert({landmark->index, Seen{landmark->position, line_number}});
+        seen.insert({landmark->point, Seen{landmark->position, line_number}});
     if (is_new) {
       landmarks.push_back(*landmark);
     } else if (entry->second.position != landmark->position) {
-      return Status::Error(place + "vertex " + std::to_string(landmark->index) +
+      return Status::Error(place + "vertex " + std::to_string(landmark->point) +
                            " has another position than in line " +
                            std::to_string(entry->second.line_number) + ", expected one");
     }

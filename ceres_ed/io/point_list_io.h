@@ -2,22 +2,13 @@
 #ifndef CERES_ED_IO_POINT_LIST_IO_H_
 #define CERES_ED_IO_POINT_LIST_IO_H_
 
+#include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/util/status.h>
 
 #include <string>
 #include <vector>
 
-#include <Eigen/Core>
-
 namespace ceres_ed {
-
-// A vertex of the source and the position to which it is moved.
-struct Landmark {
-  // The row in the source file.
-  int index = -1;
-  // The position, in the frame and unit of the target.
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-};
 
 // Reads the rows `source_index,x,y,z` of a CSV file, in the order of the file; at least one. The
 // header row is optional. Text after # and blank lines are ignored; lines end in LF or CR LF. A row

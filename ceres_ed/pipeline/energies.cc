@@ -1,6 +1,6 @@
 #include "ceres_ed/pipeline/energies.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/plugin/plugin_loader.h>
 
 #include <set>

@@ -47,7 +47,7 @@ bool IsEliminated(const BlockRef& block, const ProblemConfig& config) {
 }
 
 // Returns whether a residual on these blocks is part of the problem. With `cut`, it is left out if
-// it crosses the seam.
+// it crosses the boundary.
 bool IsIncluded(const BlockRef* blocks, int num_blocks, bool cut, const ProblemConfig& config) {
   int num_variable = 0;
   for (int i = 0; i < num_blocks; ++i) {
@@ -263,7 +263,8 @@ void ProblemBuilder::Select(const ProblemConfig& config,
   selected->clear();
   for (int t = 0; t < num_terms(); ++t) {
     const Term& term = terms_[t];
-    const bool cut = term.kind == EnergyKind::kPrior && config.seam_edges == SeamEdges::kCut;
+    const bool cut =
+        term.kind == EnergyKind::kPrior && config.boundary_edges == BoundaryEdges::kCut;
     for (const Residual& residual : term.residuals) {
       const BlockRef* blocks = &term.blocks[residual.first_block];
       if (term.weight * residual.weight == 0.0 ||

@@ -104,8 +104,8 @@ class ProblemBuilder {
   std::vector<char> PointRelevantNodes() const;
 
   // Returns the residuals of the problem of `config`: those of positive weight that touch something
-  // variable and no eliminated node, without the priors that kCut removes at the seam. They are in
-  // the order in which they were added; the extra residuals come last. The result refers to
+  // variable and no eliminated node, without the priors that kCut removes at the boundary. They are
+  // in the order in which they were added; the extra residuals come last. The result refers to
   // `config`, which must outlive it.
   std::vector<SelectedResidual> Select(const ProblemConfig& config) const;
   // Does the same and reuses the memory of `selected`.

@@ -21,12 +21,12 @@ ProblemConfig FullConfig(int num_nodes, bool has_camera) {
 ProblemConfig LevelOneConfig(const DeformationGraph& graph,
                              const std::vector<char>& point_relevant,
                              bool has_camera,
-                             SeamEdges seam_edges,
+                             BoundaryEdges boundary_edges,
                              int rings) {
   ProblemConfig config;
   config.variable_nodes = RingsAround(graph, point_relevant, rings);
   config.camera_variable = has_camera;
-  config.seam_edges = seam_edges;
+  config.boundary_edges = boundary_edges;
   return config;
 }
 

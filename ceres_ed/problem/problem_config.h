@@ -1,6 +1,6 @@
 // A description of a subproblem as data: the parameters that it may change, what happens to the
-// edges that cross its seam, and the residuals that replace eliminated nodes. The builder does not
-// know the levels of the paper; they are configs.
+// edges that cross its boundary, and the residuals that replace eliminated nodes. The builder does
+// not know the levels of the paper; they are configs.
 #ifndef CERES_ED_PROBLEM_PROBLEM_CONFIG_H_
 #define CERES_ED_PROBLEM_PROBLEM_CONFIG_H_
 
@@ -29,7 +29,7 @@ struct ProblemConfig {
   // One entry for each node: nonzero if the node may move.
   std::vector<char> variable_nodes;
   bool camera_variable = false;
-  SeamEdges seam_edges = SeamEdges::kKeep;
+  BoundaryEdges boundary_edges = BoundaryEdges::kKeep;
   // One entry for each node: nonzero if it has been eliminated. Every residual that touches an
   // eliminated node is left out. Empty if no node is eliminated. A variable node can't be
   // eliminated.
@@ -48,7 +48,7 @@ ProblemConfig FullConfig(int num_nodes, bool has_camera);
 ProblemConfig LevelOneConfig(const DeformationGraph& graph,
                              const std::vector<char>& point_relevant,
                              bool has_camera,
-                             SeamEdges seam_edges,
+                             BoundaryEdges boundary_edges,
                              int rings);
 
 // Returns Level II (Eq. 15): only the PI nodes may move; PR nodes and the camera are held constant.

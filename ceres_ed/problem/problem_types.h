@@ -1,4 +1,4 @@
-// Types of a problem for users: the treatment of its seam, and the costs of its energies.
+// Types of a problem for users: the treatment of its boundary, and the costs of its energies.
 #ifndef CERES_ED_PROBLEM_PROBLEM_TYPES_H_
 #define CERES_ED_PROBLEM_PROBLEM_TYPES_H_
 
@@ -11,15 +11,15 @@
 namespace ceres_ed {
 
 // What happens to a prior residual between a variable node and a constant one.
-enum class SeamEdges {
+enum class BoundaryEdges {
   // It is kept, and pulls toward the position of the constant node ("fixing Phi_2", Eq. 14).
   kKeep,
-  // It is left out, as in the paper's figure on node types. The surface may tear at the seam.
+  // It is left out, as in the paper's figure on node types. The surface may tear at the boundary.
   kCut,
 };
 
-constexpr std::array<NamedValue<SeamEdges>, 2> NamesOf(SeamEdges) {
-  return {{{"keep", SeamEdges::kKeep}, {"cut", SeamEdges::kCut}}};
+constexpr std::array<NamedValue<BoundaryEdges>, 2> NamesOf(BoundaryEdges) {
+  return {{{"keep", BoundaryEdges::kKeep}, {"cut", BoundaryEdges::kCut}}};
 }
 
 // The cost of one term. The sums are over its residual blocks i.

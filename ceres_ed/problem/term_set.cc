@@ -39,8 +39,15 @@ EnergyContext ContextOf(const TermRule& rule, const TermInputs& inputs) {
   if (rule.thinned) {
     context.correspondences = inputs.thinned != nullptr ? inputs.thinned : &kNone;
   }
-  if (rule.landmarks == LandmarkSource::kPinned) {
-    context.landmarks = inputs.pinned != nullptr ? inputs.pinned : &kNone;
+  switch (rule.pairs) {
+    case PairSource::kLandmarks:
+      break;
+    case PairSource::kPinned:
+      context.landmarks = inputs.pinned != nullptr ? inputs.pinned : &kNone;
+      break;
+    case PairSource::kFeatures:
+      context.landmarks = inputs.features != nullptr ? inputs.features : &kNone;
+      break;
   }
   return context;
 }
@@ -67,8 +74,8 @@ LossSpec LossOf(const TermSpec& spec, const TermInputs& inputs) {
     case LossWidth::kCorrespondences:
       loss.width = inputs.correspondence_width;
       break;
-    case LossWidth::kLandmarks:
-      loss.width = inputs.landmark_width;
+    case LossWidth::kFeatures:
+      loss.width = inputs.feature_width;
       break;
   }
   return loss;

@@ -2,7 +2,6 @@
 #ifndef CERES_ED_PROBLEM_TERM_SET_H_
 #define CERES_ED_PROBLEM_TERM_SET_H_
 
-#include <ceres_ed/energy/correspondence.h>
 #include <ceres_ed/energy/energy.h>
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/energy/energy_spec.h>
@@ -28,9 +27,9 @@ enum class WeightScale {
 // Where the width of a term's loss comes from. The type of the loss is always the term's own.
 enum class LossWidth {
   kOwn,
-  // From TermInputs: it follows how far the correspondences, or the landmarks, spread.
+  // From TermInputs: it follows how far the correspondences, or the features, spread.
   kCorrespondences,
-  kLandmarks,
+  kFeatures,
 };
 
 // Which levels of a problem have residuals of a term.
@@ -40,12 +39,14 @@ enum class TermLevels {
   kLevelOne,
 };
 
-// Which pairs a term sees as landmarks.
-enum class LandmarkSource {
-  // EnergyContext::landmarks.
-  kGiven,
+// Which pairs an energy sees that asks for EnergyContext::landmarks.
+enum class PairSource {
+  // The landmarks of the user.
+  kLandmarks,
   // TermInputs::pinned.
   kPinned,
+  // TermInputs::features.
+  kFeatures,
 };
 
 // How a term takes part in a problem, as data: no code asks for a term by its name.
@@ -61,7 +62,7 @@ struct TermRule {
   bool matched = false;
   // Whether the term sees TermInputs::thinned in place of all correspondences.
   bool thinned = false;
-  LandmarkSource landmarks = LandmarkSource::kGiven;
+  PairSource pairs = PairSource::kLandmarks;
   // Whether a user has asked for the term, who is told if it never adds a residual.
   bool is_users = false;
 };
@@ -81,13 +82,15 @@ struct TermInputs {
   const std::vector<Correspondence>* thinned = nullptr;
   // Points that are held in their places; null: there are none.
   const std::vector<Correspondence>* pinned = nullptr;
+  // Corners that are followed from frame to frame; null: there are none.
+  const std::vector<Correspondence>* features = nullptr;
   // >= 0.
   double stiffness = 1.0;
   // Observed nodes divided by observations, >= 0.
   double nodes_per_observation = 1.0;
   // Widths of losses, > 0.
   double correspondence_width = 1.0;
-  double landmark_width = 1.0;
+  double feature_width = 1.0;
 };
 
 // Owns terms, and adds them to problems: the one place where rules are applied. Term i of the set

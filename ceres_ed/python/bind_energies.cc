@@ -1,6 +1,6 @@
 // Energies by name and parameters, and the shared objects that bring more of them.
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/energy.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/plugin/plugin_loader.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/energies.h>

@@ -18,8 +18,8 @@ namespace ceres_ed::python {
 namespace {
 
 // From {source point: (x, y, z)}, or a pair (source points, positions).
-std::vector<PointConstraint> ToLandmarks(const py::object& object) {
-  std::vector<PointConstraint> landmarks;
+std::vector<Landmark> ToLandmarks(const py::object& object) {
+  std::vector<Landmark> landmarks;
   if (object.is_none()) return landmarks;
   py::object indices, positions;
   if (py::isinstance<py::dict>(object)) {

@@ -15,11 +15,11 @@ namespace {
 
 // The distance at which a point counts half as unmatched, as a fraction of the source's diagonal,
 // and the share below which nothing counts as unmatched.
-constexpr double kMissedWidth = 0.02;
-constexpr double kNothingMissed = 0.01;
+constexpr double kUnmatchedWidth = 0.02;
+constexpr double kNothingUnmatched = 0.01;
 // The number of source samples; it is large enough that each target sample has a source sample near
 // it.
-constexpr int kMissedSamples = 8000;
+constexpr int kUnmatchedSamples = 8000;
 
 // Returns the state of nodes at the source points `node_points`, under the warp of `graph`.
 DeformationState CarryOver(const BuiltGraph& graph,
@@ -43,18 +43,18 @@ bool EndedEarly(const FitResult& result) {
 
 }  // namespace
 
-Status CoarseToFine::BuildGraphs(int levels, FitResult* result) {
+Status CoarseToFine::BuildGraphs(int resolutions, FitResult* result) {
   const Timer timer;
   const Surface& source = *fit_.source;
   StatusOr<BuiltGraph> finest = BuildGraph(source.cloud(), source.topology(), fit_.options->graph);
   if (!finest.ok()) return finest.status();
   result->warnings.insert(result->warnings.end(), finest->warnings.begin(), finest->warnings.end());
-  for (int level = levels - 1; level > 0; --level) {
+  for (int resolution = resolutions - 1; resolution > 0; --resolution) {
     GraphOptions options = fit_.options->graph;
-    options.node_spacing = finest->node_spacing * std::pow(2.0, level);
+    options.node_spacing = finest->node_spacing * std::pow(2.0, resolution);
     options.target_nodes = 0;
     StatusOr<BuiltGraph> coarse = BuildGraph(source.cloud(), source.topology(), options);
-    // A body with few nodes has no coarser graph; the finer levels then do all the work.
+    // A body with few nodes has no coarser graph; the finer resolutions then do all the work.
     if (coarse.ok()) graphs_.push_back(*std::move(coarse));
   }
   graphs_.push_back(*std::move(finest));
@@ -62,9 +62,12 @@ Status CoarseToFine::BuildGraphs(int levels, FitResult* result) {
   return Status::Ok();
 }
 
-Status CoarseToFine::RunLevel(
-    int level, const LevelPlan& plan, int from, DeformationState* state, FitResult* result) const {
-  const BuiltGraph& graph = graphs_[level];
+Status CoarseToFine::RunResolution(int resolution,
+                                   const ResolutionPlan& plan,
+                                   int from,
+                                   DeformationState* state,
+                                   FitResult* result) const {
+  const BuiltGraph& graph = graphs_[resolution];
   const std::vector<Eigen::Vector3d>& points = fit_.source->cloud().points;
   *state = from < 0 ? DeformationState(graph.graph.num_nodes())
                     : CarryOver(graphs_[from], *state, graph.node_points, points);
@@ -82,20 +85,20 @@ Status CoarseToFine::RunLevel(
   return Status::Ok();
 }
 
-Unmatched CoarseToFine::Missed(int level, const DeformationState& state) const {
-  MovingSamples moving(*fit_.source, graphs_[level], kMissedSamples);
+Unmatched CoarseToFine::MeasureUnmatched(int resolution, const DeformationState& state) const {
+  MovingSamples moving(*fit_.source, graphs_[resolution], kUnmatchedSamples);
   moving.Move(state, fit_.options->num_threads);
   return FindUnmatched(moving.Moved(),
                        *fit_.target,
                        SamplePoints(*fit_.target, kMinCoarseSamples),
-                       kMissedWidth,
+                       kUnmatchedWidth,
                        fit_.options->matching);
 }
 
 Status CoarseToFine::Run(FitResult* result) {
   const FitOptions& options = *fit_.options;
   if (Status status = BuildGraphs(options.schedule.levels, result); !status.ok()) return status;
-  const std::vector<LevelPlan> plans = PlanLevels(fit_, static_cast<int>(graphs_.size()));
+  const std::vector<ResolutionPlan> plans = PlanResolutions(fit_, static_cast<int>(graphs_.size()));
   const int last = static_cast<int>(graphs_.size()) - 1;
   // Without matches, or with a loss that has no width, there is only one way.
   struct Way {
@@ -106,25 +109,26 @@ Status CoarseToFine::Run(FitResult* result) {
   const double careful_angle = std::min(options.careful_angle_deg, bold.max_angle_deg);
   std::vector<Way> ways = {{options.careful_loss_width, careful_angle}};
   if (fit_.target != nullptr && options.loss != LossType::kSquared) ways.push_back(bold);
-  double best_missed = std::numeric_limits<double>::infinity();
+  double best_unmatched = std::numeric_limits<double>::infinity();
   int start = -1;
   double loss_width = options.loss_width;
   // The coarse graphs are fitted in each way; the state that leaves less unmatched is kept.
   for (std::size_t i = 0; i < ways.size() && last > 0; ++i) {
     DeformationState state;
-    int level = 0;
-    for (; level < last; ++level) {
-      LevelPlan plan = plans[level];
+    int resolution = 0;
+    for (; resolution < last; ++resolution) {
+      ResolutionPlan plan = plans[resolution];
       plan.loss_width = ways[i].loss_width;
       plan.max_angle_deg = ways[i].max_angle_deg;
-      Status status = RunLevel(level, plan, level - 1, &state, result);
+      Status status = RunResolution(resolution, plan, resolution - 1, &state, result);
       if (!status.ok()) return status;
       if (EndedEarly(*result)) break;
     }
-    const int reached = std::min(level, last - 1);
-    const Unmatched missed = fit_.target != nullptr ? Missed(reached, state) : Unmatched{0.0, 0.0};
-    if (missed.Mean() < best_missed) {
-      best_missed = missed.Mean();
+    const int reached = std::min(resolution, last - 1);
+    const Unmatched unmatched =
+        fit_.target != nullptr ? MeasureUnmatched(reached, state) : Unmatched{0.0, 0.0};
+    if (unmatched.Mean() < best_unmatched) {
+      best_unmatched = unmatched.Mean();
       loss_width = ways[i].loss_width;
       start = reached;
       state_ = std::move(state);
@@ -134,13 +138,13 @@ Status CoarseToFine::Run(FitResult* result) {
       return Status::Ok();
     }
     // Everything that the smaller surface shows is explained, so another way cannot be better.
-    if (std::min(missed.source, missed.target) < kNothingMissed) break;
+    if (std::min(unmatched.source, unmatched.target) < kNothingUnmatched) break;
   }
   // The finest graph starts from the best coarse state.
   graph_ = last;
-  LevelPlan plan = plans[last];
+  ResolutionPlan plan = plans[last];
   plan.loss_width = loss_width;
-  Status status = RunLevel(last, plan, start, &state_, result);
+  Status status = RunResolution(last, plan, start, &state_, result);
   if (status.ok()) KeepTheBetter(result);
   return status;
 }
@@ -149,8 +153,8 @@ Status CoarseToFine::Run(FitResult* result) {
 void CoarseToFine::KeepTheBetter(FitResult* result) {
   if (fit_.target == nullptr || !fit_.landmarks.empty() || !fit_.fixed.empty()) return;
   const DeformationState rest(graphs_[graph_].graph.num_nodes());
-  const double rigid = Missed(graph_, rest).Mean();
-  const double fitted = Missed(graph_, state_).Mean();
+  const double rigid = MeasureUnmatched(graph_, rest).Mean();
+  const double fitted = MeasureUnmatched(graph_, state_).Mean();
   if (fitted <= rigid) return;
   std::ostringstream message;
   message << "the deformation leaves more of the surfaces unmatched (" << 100.0 * fitted

@@ -1,4 +1,4 @@
-// The levels of a fit, from few nodes to many.
+// The resolutions of a fit, from few nodes to many.
 #ifndef CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
 #define CERES_ED_REGISTRATION_COARSE_TO_FINE_H_
 
@@ -13,11 +13,11 @@
 
 namespace ceres_ed {
 
-// Runs the levels one after the other and transfers the warp from graph to graph. On the coarse
-// graphs two ways are tried: a careful one (narrow loss, strict normals) and a bold one. With the
-// careful way, limbs that are far away do not move until the parts that support them are near; with
-// the bold way, parts are moved that would otherwise not be reached. The fit continues with the way
-// that leaves less of the two surfaces unmatched.
+// Runs the resolutions one after the other and transfers the warp from graph to graph. On the
+// coarse graphs two ways are tried: a careful one (narrow loss, strict normals) and a bold one.
+// With the careful way, limbs that are far away do not move until the parts that support them are
+// near; with the bold way, parts are moved that would otherwise not be reached. The fit continues
+// with the way that leaves less of the two surfaces unmatched.
 class CoarseToFine {
  public:
   explicit CoarseToFine(UnitFit fit) : fit_(std::move(fit)) {}
@@ -31,16 +31,19 @@ class CoarseToFine {
   const DeformationState& state() const { return state_; }
 
  private:
-  Status BuildGraphs(int levels, FitResult* result);
-  // Runs one level with the loss of `plan`, starting from `state` on the graph `from` (-1: from
-  // rest).
-  Status RunLevel(
-      int level, const LevelPlan& plan, int from, DeformationState* state, FitResult* result) const;
+  Status BuildGraphs(int resolutions, FitResult* result);
+  // Runs one resolution with the loss of `plan`, starting from `state` on the graph `from` (-1:
+  // from rest).
+  Status RunResolution(int resolution,
+                       const ResolutionPlan& plan,
+                       int from,
+                       DeformationState* state,
+                       FitResult* result) const;
   // Returns to the rigid placement, with a warning, if the deformation explains less of the
   // surfaces.
   void KeepTheBetter(FitResult* result);
-  // Returns how much of both surfaces is unmatched in `state` on the graph of `level`.
-  Unmatched Missed(int level, const DeformationState& state) const;
+  // Returns how much of both surfaces is unmatched in `state` on the graph of `resolution`.
+  Unmatched MeasureUnmatched(int resolution, const DeformationState& state) const;
 
   UnitFit fit_;
   // The graphs from coarse to fine.

@@ -1,6 +1,5 @@
 #include "ceres_ed/registration/fit.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/geometry/surface.h>
@@ -27,7 +26,7 @@ namespace {
 Similarity PoseFromLandmarks(const FitInput& input, bool with_scale) {
   std::vector<Eigen::Vector3d> from;
   std::vector<Eigen::Vector3d> to;
-  for (const PointConstraint& landmark : input.landmarks) {
+  for (const Landmark& landmark : input.landmarks) {
     from.push_back(input.source.points[landmark.point]);
     to.push_back(landmark.position);
   }
@@ -76,10 +75,10 @@ Warp WarpInSourceFrame(const BuiltGraph& graph,
   return warp;
 }
 
-std::vector<Correspondence> InUnitFrame(const std::vector<PointConstraint>& constraints,
+std::vector<Correspondence> InUnitFrame(const std::vector<Landmark>& constraints,
                                         const Similarity& unit_from_target) {
   std::vector<Correspondence> correspondences;
-  for (const PointConstraint& constraint : constraints) {
+  for (const Landmark& constraint : constraints) {
     Correspondence correspondence;
     correspondence.point = constraint.point;
     correspondence.target = unit_from_target * constraint.position;
@@ -309,7 +308,7 @@ StatusOr<FitResult> Fitter::Run() {
   }
   result_.times.prepare = timer.Seconds();
 
-  std::vector<PointConstraint> fixed;
+  std::vector<Landmark> fixed;
   for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
   const FitOptions unit_options = UnitOptions(source, target.get());
   // 3. The deformation by the nodes, from coarse to fine graphs.
@@ -321,10 +320,10 @@ StatusOr<FitResult> Fitter::Run() {
                        InUnitFrame(fixed, unit_from_target_),
                        noise,
                        &clock_};
-  CoarseToFine levels(fit);
-  if (Status status = levels.Run(&result_); !status.ok()) return status;
+  CoarseToFine coarse_to_fine(fit);
+  if (Status status = coarse_to_fine.Run(&result_); !status.ok()) return status;
   // 4. The warp in the source frame, and the finish of every vertex.
-  Finish(fit, levels.graph(), levels.state());
+  Finish(fit, coarse_to_fine.graph(), coarse_to_fine.state());
   return std::move(result_);
 }
 
@@ -363,7 +362,7 @@ StatusOr<std::unique_ptr<SurfaceFitter>> SurfaceFitter::Create(PointCloud source
 }
 
 StatusOr<FitResult> SurfaceFitter::Fit(const PointCloud& target,
-                                       const std::vector<PointConstraint>& landmarks,
+                                       const std::vector<Landmark>& landmarks,
                                        const std::vector<int>& fixed_points) const {
   const FitInput input = {source_, target, landmarks, fixed_points};
   return Fitter(input, options_, registry_, surface_.get()).Run();

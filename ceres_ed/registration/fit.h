@@ -46,7 +46,7 @@ class SurfaceFitter {
   // Fits the source to `target`. Landmarks and fixed points have the meaning of FitInput. May be
   // called from several threads at once, because no shared data change.
   StatusOr<FitResult> Fit(const PointCloud& target,
-                          const std::vector<PointConstraint>& landmarks = {},
+                          const std::vector<Landmark>& landmarks = {},
                           const std::vector<int>& fixed_points = {}) const;
 
  private:

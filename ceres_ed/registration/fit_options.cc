@@ -57,11 +57,11 @@ const OptionTable<RigidOptions>& RigidOptions::Rows() {
           .Unit("degrees"),
       Row(&O::score_width,
           "score_width",
-          "A point this far away counts half as missed, as a part of the target's diagonal.")
+          "A point this far away counts half as unmatched, as a part of the target's diagonal.")
           .In(Above(0)),
       Row(&O::good_score,
           "good_score",
-          "The given pose is kept if less than this part of a surface is missed.")
+          "The given pose is kept if less than this part of a surface is unmatched.")
           .In(Between(0, 1)),
       Row(&O::preference,
           "preference",

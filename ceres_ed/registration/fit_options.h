@@ -5,7 +5,7 @@
 #include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/graph/graph_options.h>
 #include <ceres_ed/solver/solver_types.h>
-#include <ceres_ed/util/options_fwd.h>
+#include <ceres_ed/util/named_values.h>
 
 #include <functional>
 #include <limits>
@@ -51,7 +51,7 @@ struct RigidOptions {
   bool with_scale = false;
   // Pairs whose normals differ by more than this are rejected; degrees, (0, 180], default 60.
   double max_angle_deg = 60.0;
-  // The distance, as a fraction of the target's diagonal, at which a point counts half as missed
+  // The distance, as a fraction of the target's diagonal, at which a point counts half as unmatched
   // when poses are compared; > 0, default 0.03.
   double score_width = 0.03;
   // There is no search for other poses if the refined given pose misses less than this share of the
@@ -119,7 +119,7 @@ struct FitWeights {
 
 // The schedule of a fit, from stiff to soft and from few nodes to many. The factor of the weights
 // of E_rot and E_reg starts at `initial_stiffness` and decreases in equal ratios, which are spread
-// over the levels.
+// over the resolutions.
 struct FitSchedule {
   // The number of graphs that are fitted one after the other, each with twice the node spacing of
   // the next; 1 to 5, default 2.
@@ -133,8 +133,8 @@ struct FitSchedule {
   // smoothing) in hundredths of the source's diagonal. Weak noise averages out by itself. >= 0,
   // default 3000.
   double noise_stiffness = 3000.0;
-  // The number of steps of stiffness on all coarser levels together, and on the last one; both >=
-  // 1, defaults 4 and 2.
+  // The number of steps of stiffness on all coarser resolutions together, and on the last one; both
+  // >= 1, defaults 4 and 2.
   int coarse_steps = 4;
   int fine_steps = 2;
   // The largest number of rounds of matching and solving in each step, which ends earlier if the
@@ -186,8 +186,8 @@ struct FitOptions {
   // The options of the matching; max_distance is in the unit of the target.
   MatchingOptions matching;
   // The number of points of each surface that are matched in the last step, >= 10, default 12000.
-  // The earlier steps of the last level use half of them, and the coarser levels an eighth, but at
-  // least 1000.
+  // The earlier steps of the last resolution use half of them, and the coarser ones an eighth, but
+  // at least 1000.
   int max_samples = 12000;
   // Whether a noisy target is smoothed before it is fitted; default true.
   bool denoise = true;

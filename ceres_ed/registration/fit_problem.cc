@@ -27,7 +27,7 @@ struct FitRules {
     landmark.unit = kPerSquaredLength;
     landmark.scale = WeightScale::kPerResidual;
     fixed = landmark;
-    fixed.landmarks = LandmarkSource::kPinned;
+    fixed.pairs = PairSource::kPinned;
   }
 
   TermRule rotation;

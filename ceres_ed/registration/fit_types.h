@@ -2,13 +2,13 @@
 #ifndef CERES_ED_REGISTRATION_FIT_TYPES_H_
 #define CERES_ED_REGISTRATION_FIT_TYPES_H_
 
+#include <ceres_ed/energy/energy.h>
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/similarity.h>
 #include <ceres_ed/graph/skinning.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/problem/problem_types.h>
 #include <ceres_ed/registration/fit_options.h>
-#include <ceres_ed/registration/matches.h>
 #include <ceres_ed/solver/solver_types.h>
 
 #include <string>
@@ -18,14 +18,6 @@
 
 namespace ceres_ed {
 
-// A source point, and the position to which it should move.
-struct PointConstraint {
-  // The index of the point in FitInput::source.
-  int point = -1;
-  // The position in the target frame and unit.
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();
-};
-
 // The input of a fit. A target or landmarks are required.
 struct FitInput {
   // The surface that is deformed.
@@ -33,9 +25,24 @@ struct FitInput {
   // The surface to which the source is fitted; empty if there are only landmarks.
   PointCloud target;
   // Source points with known positions in the target frame.
-  std::vector<PointConstraint> landmarks;
+  std::vector<Landmark> landmarks;
   // Source points that do not move. They determine the frame, so that there is no rigid stage.
   std::vector<int> fixed_points;
+};
+
+// The pairs that a matching found, and their statistics.
+struct Matches {
+  std::vector<Correspondence> correspondences;
+  // Further data of the pairs, by Correspondence::detail; empty if they were not requested.
+  std::vector<MatchDetail> details;
+  // The number of pairs with a closest point, and the number of pairs that were accepted.
+  int candidates = 0;
+  int inliers = 0;
+  // The root mean square point-to-plane and point-to-point distance of the accepted pairs.
+  double rms_plane = 0.0;
+  double rms_point = 0.0;
+  // 1.4826 times the median point-to-point distance of the candidates.
+  double robust_distance = 0.0;
 };
 
 // The times of the stages of a fit, in seconds.

@@ -28,7 +28,7 @@ Status CheckPoints(const FitInput& input) {
     return Status::Error("the target has " + std::to_string(input.target.size()) +
                          " points, a fit needs at least " + std::to_string(kMinPoints));
   }
-  for (const PointConstraint& landmark : input.landmarks) {
+  for (const Landmark& landmark : input.landmarks) {
     Status status = CheckIndex("a landmark", landmark.point, input.source.size());
     if (!status.ok()) return status;
   }

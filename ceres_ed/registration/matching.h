@@ -6,7 +6,7 @@
 #include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/registration/fit_options.h>
-#include <ceres_ed/registration/matches.h>
+#include <ceres_ed/registration/fit_types.h>
 
 #include <limits>
 #include <memory>

@@ -12,16 +12,16 @@ namespace {
 constexpr int kPatientIterations = 3;
 // The unit of the noise is a hundredth of the source's diagonal.
 constexpr double kPerLength = 100.0;
-// All steps before the last one match 1 / kShareOfSteps of the samples, and all levels before the
-// last one match 1 / kShareOfLevels of them.
+// All steps before the last one match 1 / kShareOfSteps of the samples, and all resolutions before
+// the last one match 1 / kShareOfResolutions of them.
 constexpr int kShareOfSteps = 2;
-constexpr int kShareOfLevels = 8;
+constexpr int kShareOfResolutions = 8;
 
 class NonrigidLoop {
  public:
   NonrigidLoop(const UnitFit& fit,
                const BuiltGraph& graph,
-               const LevelPlan& plan,
+               const ResolutionPlan& plan,
                FitProblem* problem,
                DeformationState* state,
                FitResult* result)
@@ -55,7 +55,7 @@ class NonrigidLoop {
   const FitOptions& options_;
   const Timer& clock_;
   const BuiltGraph& graph_;
-  const LevelPlan& plan_;
+  const ResolutionPlan& plan_;
   FitProblem* problem_;
   DeformationState* state_;
   FitResult* result_;
@@ -188,25 +188,25 @@ void NonrigidLoop::Run() {
 
 }  // namespace
 
-std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
+std::vector<ResolutionPlan> PlanResolutions(const UnitFit& fit, int resolutions) {
   const FitOptions& options = *fit.options;
   const FitSchedule& schedule = options.schedule;
   const double of_noise = schedule.noise_stiffness * std::pow(kPerLength * fit.noise, 3);
   const double initial_stiffness =
       fit.target != nullptr ? schedule.initial_stiffness + of_noise : 1.0;
   const double final_stiffness = fit.target != nullptr ? schedule.final_stiffness + of_noise : 1.0;
-  const int coarse_levels = levels - 1;
-  // A level starts with the final stiffness of the level before it.
+  const int coarse_resolutions = resolutions - 1;
+  // A resolution starts with the final stiffness of the resolution before it.
   const int coarse_steps =
-      coarse_levels > 0 ? std::max(1, schedule.coarse_steps / coarse_levels) : 0;
+      coarse_resolutions > 0 ? std::max(1, schedule.coarse_steps / coarse_resolutions) : 0;
   const int ratios =
-      std::max(1, coarse_levels * std::max(0, coarse_steps - 1) + schedule.fine_steps - 1);
+      std::max(1, coarse_resolutions * std::max(0, coarse_steps - 1) + schedule.fine_steps - 1);
   const double ratio = std::pow(final_stiffness / initial_stiffness, 1.0 / ratios);
-  std::vector<LevelPlan> plans(levels);
+  std::vector<ResolutionPlan> plans(resolutions);
   double stiffness = initial_stiffness;
-  for (int level = 0; level < levels; ++level) {
-    LevelPlan& plan = plans[level];
-    const bool last = level == coarse_levels;
+  for (int resolution = 0; resolution < resolutions; ++resolution) {
+    ResolutionPlan& plan = plans[resolution];
+    const bool last = resolution == coarse_resolutions;
     plan.max_angle_deg = options.matching.max_angle_deg;
     plan.is_last = last;
     plan.steps = last ? schedule.fine_steps : coarse_steps;
@@ -214,23 +214,23 @@ std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels) {
     plan.first_stiffness = stiffness;
     stiffness = last ? final_stiffness : stiffness * std::pow(ratio, plan.steps - 1);
     plan.last_stiffness = stiffness;
-    plan.progress_begin = static_cast<double>(level) / levels;
-    plan.progress_end = static_cast<double>(level + 1) / levels;
+    plan.progress_begin = static_cast<double>(resolution) / resolutions;
+    plan.progress_end = static_cast<double>(resolution + 1) / resolutions;
   }
   const auto samples = [&](int share) {
     return std::min(options.max_samples, std::max(kMinCoarseSamples, options.max_samples / share));
   };
-  for (int level = 0; level < levels; ++level) {
-    const bool last = level == coarse_levels;
-    plans[level].samples = samples(last ? kShareOfSteps : kShareOfLevels);
-    plans[level].last_samples = last ? options.max_samples : plans[level].samples;
+  for (int resolution = 0; resolution < resolutions; ++resolution) {
+    const bool last = resolution == coarse_resolutions;
+    plans[resolution].samples = samples(last ? kShareOfSteps : kShareOfResolutions);
+    plans[resolution].last_samples = last ? options.max_samples : plans[resolution].samples;
   }
   return plans;
 }
 
 void RunNonrigidLoop(const UnitFit& fit,
                      const BuiltGraph& graph,
-                     const LevelPlan& plan,
+                     const ResolutionPlan& plan,
                      FitProblem* problem,
                      DeformationState* state,
                      FitResult* result) {

@@ -12,14 +12,14 @@
 
 namespace ceres_ed {
 
-// What one level of the schedule does.
-struct LevelPlan {
+// What one resolution of the schedule does.
+struct ResolutionPlan {
   // The factors of the weights of E_rot and E_reg in the first and in the last step.
   double first_stiffness = 1.0;
   double last_stiffness = 1.0;
   // The number of steps, each with its own stiffness.
   int steps = 1;
-  // Whether this is the last level; the energies of the others are not reported.
+  // Whether this is the last resolution; the energies of the others are not reported.
   bool is_last = true;
   // The width of the data loss, as a multiple of the robust standard deviation of the residuals.
   double loss_width = 10.0;
@@ -28,7 +28,7 @@ struct LevelPlan {
   // The number of points of each surface that are matched, and that number in the last step.
   int samples = 1000;
   int last_samples = 1000;
-  // The progress of the whole fit before and after this level, in [0, 1].
+  // The progress of the whole fit before and after this resolution, in [0, 1].
   double progress_begin = 0.0;
   double progress_end = 1.0;
 };
@@ -36,15 +36,15 @@ struct LevelPlan {
 // At least this many points of a surface are matched, or all if it has fewer.
 inline constexpr int kMinCoarseSamples = 1000;
 
-// Returns the plans of the `levels` >= 1 levels of `fit`, from coarse to fine.
-std::vector<LevelPlan> PlanLevels(const UnitFit& fit, int levels);
+// Returns the plans of the `resolutions` >= 1 resolutions of `fit`, from coarse to fine.
+std::vector<ResolutionPlan> PlanResolutions(const UnitFit& fit, int resolutions);
 
 // Moves `state` on `graph` so that the warped source follows the target. `problem` contains the
 // energies of the fit. Fills in status, message, point_relevant, matches, energies, iterations and
 // times of `result`. The status is failed, interrupted or time_limit if the loop ended early.
 void RunNonrigidLoop(const UnitFit& fit,
                      const BuiltGraph& graph,
-                     const LevelPlan& plan,
+                     const ResolutionPlan& plan,
                      FitProblem* problem,
                      DeformationState* state,
                      FitResult* result);

@@ -10,7 +10,6 @@
 #include <ceres_ed/simulation/scene.h>
 #include <ceres_ed/simulation/texture.h>
 #include <ceres_ed/util/named_values.h>
-#include <ceres_ed/util/options_fwd.h>
 #include <ceres_ed/util/status.h>
 
 #include <array>

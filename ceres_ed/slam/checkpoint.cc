@@ -116,7 +116,7 @@ CheckpointWriter::CheckpointWriter() : bytes_(FileHead(0)), payload_at_(bytes_.s
   bytes_.push_back(kOpenMap);
 }
 
-std::string CheckpointWriter::Finish() {
+std::string CheckpointWriter::TakeBytes() {
   CHECK_EQ(depth_, 0) << "a group was not left, or the bytes are gone";
   --depth_;
   bytes_.push_back(kCloseMap);

@@ -178,7 +178,7 @@ class CheckpointWriter : public CheckpointArchive {
 
   // Returns the bytes in the format CBOR, with a version and a checksum. Every group must have been
   // left. Call it only once.
-  std::string Finish();
+  std::string TakeBytes();
 
   bool saving() const override { return true; }
   void Enter(const std::string& group) override;

@@ -4,7 +4,6 @@
 #define CERES_ED_SLAM_SLAM_H_
 
 #include <ceres_ed/geometry/pinhole_camera.h>
-#include <ceres_ed/slam/map/map_memory.h>
 #include <ceres_ed/slam/slam_options.h>
 #include <ceres_ed/slam/slam_types.h>
 #include <ceres_ed/util/status.h>

@@ -5,7 +5,6 @@
 #include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/solver/solver_types.h>
 #include <ceres_ed/util/named_values.h>
-#include <ceres_ed/util/options_fwd.h>
 
 #include <array>
 #include <string>

@@ -124,7 +124,7 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
     if (round + 1 >= kLeastRounds && gain < kSmallGain * level.initial_energy) break;
   }
   if (levels_->Eliminates()) {
-    take(levels_->FinishLevelOne(observations, &memory_, &map_));
+    take(levels_->ConvergeLevelOne(observations, &memory_, &map_));
   }
   return observations;
 }

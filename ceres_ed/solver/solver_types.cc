@@ -50,7 +50,7 @@ const OptionTable<StrategyOptions>& StrategyOptions::Rows() {
           .In(AtLeast(0))
           .OnResume(ResumeRule::kNoted)
           .Main(),
-      Row(&O::seam_edges,
+      Row(&O::boundary_edges,
           "boundary",
           "Whether two_level keeps or cuts the edges between nodes of level I and the rest.")
           .OnResume(ResumeRule::kNoted),

@@ -4,7 +4,6 @@
 
 #include <ceres_ed/problem/problem_types.h>
 #include <ceres_ed/util/named_values.h>
-#include <ceres_ed/util/options_fwd.h>
 
 #include <array>
 #include <functional>
@@ -115,13 +114,13 @@ constexpr std::array<NamedValue<SolveMode>, 3> NamesOf(SolveMode) {
            {"marginal", SolveMode::kMarginal}}};
 }
 
-// The strategy of a solve, and its treatment of the seam.
+// The strategy of a solve, and its treatment of the boundary.
 struct StrategyOptions {
   SolveMode mode = SolveMode::kBatch;
   // The number of rings of PI nodes that Level I moves as well; >= 0, default 2.
   int rings = 2;
-  // For kTwoLevel: whether the edges of the seam are kept or cut; default kKeep.
-  SeamEdges seam_edges = SeamEdges::kKeep;
+  // For kTwoLevel: whether the edges of the boundary are kept or cut; default kKeep.
+  BoundaryEdges boundary_edges = BoundaryEdges::kKeep;
   LinearSolver linear_solver = LinearSolver::kBlock;
   // For kMarginal: if an entry of A_j of a PI node changes by more than this, an elimination is not
   // used again; without unit, >= 0, default 0.003. The value affects the number and the cost of the

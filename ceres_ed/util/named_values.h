@@ -1,4 +1,6 @@
-// One table of names for each enum: flags, Python, reports and files all read it.
+// What the header of an Options struct needs: the names of its enums, and the type of its rows.
+//
+// There is one table of names for each enum: flags, Python, reports and files all read it.
 //
 // An enum has names when a function NamesOf(E) stands beside it and returns them:
 //   enum class Colour { kRed, kBlue };
@@ -50,6 +52,10 @@ std::string ListNames(const char* separator) {
   }
   return names;
 }
+
+// The rows of an Options struct (options.h).
+template <typename Options>
+class OptionTable;
 
 }  // namespace ceres_ed
 

@@ -15,7 +15,6 @@
 #define CERES_ED_UTIL_OPTIONS_H_
 
 #include <ceres_ed/util/named_values.h>
-#include <ceres_ed/util/options_fwd.h>
 
 #include <cstdint>
 #include <functional>

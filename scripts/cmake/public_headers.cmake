@@ -2,13 +2,10 @@
 # install.headers compiles each of them from an installed copy, so that none is missing here.
 set(CERES_ED_PUBLIC_HEADERS
     ceres_ed/energy/block_energy.h
-    ceres_ed/energy/builtin_energies.h
-    ceres_ed/energy/correspondence.h
     ceres_ed/energy/custom_energy.h
     ceres_ed/energy/energy.h
     ceres_ed/energy/energy_registry.h
     ceres_ed/energy/energy_spec.h
-    ceres_ed/energy/optional_functor.h
     ceres_ed/energy/point_energy.h
     ceres_ed/energy/point_store.h
     ceres_ed/energy/residual_store.h
@@ -23,10 +20,8 @@ set(CERES_ED_PUBLIC_HEADERS
     ceres_ed/graph/graph_builder.h
     ceres_ed/graph/graph_options.h
     ceres_ed/graph/skinning.h
-    ceres_ed/graph/vertex_field.h
     ceres_ed/graph/warp.h
     ceres_ed/io/cloud_io.h
-    ceres_ed/io/graph_io.h
     ceres_ed/io/mesh/ply_document.h
     ceres_ed/io/results/live_cloud_io.h
     ceres_ed/io/results/map_ply.h
@@ -41,8 +36,6 @@ set(CERES_ED_PUBLIC_HEADERS
     ceres_ed/registration/fit.h
     ceres_ed/registration/fit_options.h
     ceres_ed/registration/fit_types.h
-    ceres_ed/registration/matches.h
-    ceres_ed/slam/map/map_memory.h
     ceres_ed/slam/slam.h
     ceres_ed/slam/slam_options.h
     ceres_ed/slam/slam_types.h
@@ -55,5 +48,4 @@ set(CERES_ED_PUBLIC_HEADERS
     ceres_ed/util/chunked_rows.h
     ceres_ed/util/memory_use.h
     ceres_ed/util/named_values.h
-    ceres_ed/util/options_fwd.h
     ceres_ed/util/status.h)

@@ -1,5 +1,5 @@
 // ablate_fit: a fit with one of its ingredients left out, to see what that one is worth.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/registration/fit.h>

@@ -1,8 +1,8 @@
 // What an energy of a user's costs beside a built-in one of the same arithmetic: collecting its
 // residuals and a step of Level I with them, over 400 nodes and a camera. Its functors are those of
 // the built-in energies under other names, by way of ForEachMatch, ForEachNode and ForEachEdge.
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>

@@ -23,7 +23,7 @@ void LevelOneIteration(benchmark::State& state, LinearSolver linear_solver) {
   problem.target_deviation = 0.05;
   const StripBuilder strip(problem, "point_to_plane");
   const ProblemConfig config = LevelOneConfig(
-      strip.problem.graph, strip.builder.PointRelevantNodes(), true, SeamEdges::kKeep, 0);
+      strip.problem.graph, strip.builder.PointRelevantNodes(), true, BoundaryEdges::kKeep, 0);
   SolverOptions options;
   options.max_iterations = 1;
   const std::unique_ptr<LevelSolver> solver = MakeLevelSolver(linear_solver);

@@ -62,7 +62,7 @@ void Eliminate(benchmark::State& state) {
     marginalization.Eliminate(1e-12);
     benchmark::DoNotOptimize(marginalization.prior());
   }
-  state.counters["seam"] = static_cast<double>(marginalization.seam_nodes().size());
+  state.counters["boundary"] = static_cast<double>(marginalization.boundary_nodes().size());
 }
 BENCHMARK(Eliminate)->Apply(Sizes);
 

@@ -3,7 +3,7 @@
 // residuals, on one thread. Sheets are about square, chains two nodes wide; nodes are joined to
 // their 8 neighbours, both ways. Counters: steps taken, and the root mean square of what is left of
 // the constraints, in node spacings.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/residual_collection.h>

@@ -58,7 +58,7 @@ class Window {
     const std::vector<char> relevant = strip_.builder.PointRelevantNodes();
     CHECK_EQ(std::count(relevant.begin(), relevant.end(), 1), kPointRelevantNodes);
     // Every node of the window is within so many rings.
-    config_ = LevelOneConfig(problem().graph, relevant, true, SeamEdges::kKeep, kSide);
+    config_ = LevelOneConfig(problem().graph, relevant, true, BoundaryEdges::kKeep, kSide);
     CHECK_EQ(config_.NumVariableNodes(), kSide * kSide);
   }
 

@@ -28,7 +28,7 @@ class EdFitConstraintsTest : public EdFitTest {
     EXPECT_TRUE(landmarks.ok());
     double largest = 0.0;
     for (const Landmark& landmark : *landmarks) {
-      largest = std::max(largest, (points[landmark.index] - landmark.position).norm());
+      largest = std::max(largest, (points[landmark.point] - landmark.position).norm());
     }
     return largest;
   }

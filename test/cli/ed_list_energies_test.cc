@@ -1,4 +1,4 @@
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 
 #include <string>
 #include <vector>

@@ -1,6 +1,6 @@
 // What README.md and the other pages say is what is there.
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/energy_listing.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/version.h>
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // built-in ones, and all solvers accept them.
 #include "ceres_ed/energy/custom_energy.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/energy_laws.h>

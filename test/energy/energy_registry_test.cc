@@ -1,7 +1,5 @@
 #include "ceres_ed/energy/energy_registry.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
-
 #include <cmath>
 #include <limits>
 #include <memory>

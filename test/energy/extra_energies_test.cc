@@ -1,6 +1,6 @@
 // The energies that are not used by default: laplacian, pinned_vertex, temporal_smoothness, volume.
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/simulation/shapes.h>
@@ -38,7 +38,7 @@ EnergySpec Spec(const std::string& name, double weight, double point = -1.0) {
 }
 
 FitResult FitLandmarks(const PointCloud& source,
-                       const std::vector<PointConstraint>& landmarks,
+                       const std::vector<Landmark>& landmarks,
                        const std::vector<EnergySpec>& energies) {
   FitInput input;
   input.source = source;
@@ -105,7 +105,7 @@ TEST(PinnedVertexEnergy, HoldsItsPointWhileAnotherIsPulled) {
   const PointCloud sheet = MakeSyntheticShape(SyntheticShape::kPlane, 600, 1.0);
   const int pulled = 0;
   const int last = static_cast<int>(sheet.size()) - 1;
-  const std::vector<PointConstraint> landmarks = {
+  const std::vector<Landmark> landmarks = {
       {pulled, sheet.points[pulled] + Eigen::Vector3d(0.0, 0.0, 0.2)}};
   const FitResult free = FitLandmarks(sheet, landmarks, {});
   const FitResult pinned = FitLandmarks(sheet, landmarks, {Spec("pinned_vertex", 1e3, 1.0 * last)});
@@ -328,7 +328,7 @@ TEST(VolumeEnergy, LetsASqueezedBodyBulge) {
   const auto [low, high] = std::minmax_element(body.points.begin(), body.points.end(), by_z);
   const double height = high->z() - low->z();
   const Eigen::Vector3d up(0.0, 0.0, height / 6.0);
-  const std::vector<PointConstraint> landmarks = {
+  const std::vector<Landmark> landmarks = {
       {static_cast<int>(low - body.points.begin()), *low + up},
       {static_cast<int>(high - body.points.begin()), *high - up}};
   const double rest = EnclosedVolume(body.points, body.triangles, {0, 0, 0});

@@ -1,5 +1,5 @@
 // Energies that use both sides of a matched pair: symmetric_point_to_plane and photometric.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/testing/cost_evaluation.h>
 #include <ceres_ed/testing/energy_laws.h>
 #include <ceres_ed/testing/residual_collection.h>

@@ -62,7 +62,7 @@ TEST_F(NativeSequenceWriterTest, WritesWhatTheReadersOfItsFilesReadBack) {
   const auto writer = Create(out);
   for (int k = 0; k < 3; ++k) ASSERT_TRUE(writer->WriteFrame(Frame(k)).ok());
   EXPECT_EQ(writer->num_frames(), 3);
-  ASSERT_TRUE(writer->Finish().ok());
+  ASSERT_TRUE(writer->Close().ok());
 
   const auto camera = ReadCameraFile(out + "/camera.txt");
   ASSERT_TRUE(camera.ok());
@@ -85,7 +85,7 @@ TEST_F(NativeSequenceWriterTest, WritesWhatTheReadersOfItsFilesReadBack) {
 TEST_F(NativeSequenceWriterTest, StreamsTruthAsLittleEndianFloatsFromTheFirstMeshOn) {
   const auto writer = Create(dir_.path());
   for (int k = 0; k < 2; ++k) ASSERT_TRUE(writer->WriteFrame(Frame(k)).ok());
-  ASSERT_TRUE(writer->Finish().ok());
+  ASSERT_TRUE(writer->Close().ok());
   const std::string bytes = ReadBytes(dir_ / "gt_vertices.f32");
   ASSERT_EQ(bytes.size(), 2u * 3u * 3u * 4u);
   float values[18];
@@ -139,7 +139,7 @@ TEST_F(NativeSequenceWriterTest, OverwritesAllOfASequenceAndNothingElse) {
   {
     const auto writer = Create(dir_.path());
     for (int k = 0; k < 3; ++k) ASSERT_TRUE(writer->WriteFrame(Frame(k)).ok());
-    ASSERT_TRUE(writer->Finish().ok());
+    ASSERT_TRUE(writer->Close().ok());
   }
   WriteBytes(dir_ / "notes.txt", "mine");
   WriteBytes(dir_ / "depth/preview.png", "mine");
@@ -149,7 +149,7 @@ TEST_F(NativeSequenceWriterTest, OverwritesAllOfASequenceAndNothingElse) {
   frame.truth = nullptr;
   frame.color = nullptr;
   ASSERT_TRUE(writer->WriteFrame(frame).ok());
-  ASSERT_TRUE(writer->Finish().ok());
+  ASSERT_TRUE(writer->Close().ok());
   EXPECT_TRUE(Exists("depth/000000.png"));
   for (const char* gone :
        {"depth/000001.png", "color/000000.png", "gt_vertices.f32", "gt_mesh_000000.ply"}) {

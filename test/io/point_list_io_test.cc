@@ -45,9 +45,9 @@ TEST_F(PointLists, LandmarksAreReadInTheOrderOfTheFile) {
     const StatusOr<std::vector<Landmark>> landmarks = Landmarks(bytes);
     ASSERT_TRUE(landmarks.ok()) << landmarks.status().message();
     ASSERT_EQ(landmarks->size(), 2u);
-    EXPECT_EQ((*landmarks)[0].index, 7);
+    EXPECT_EQ((*landmarks)[0].point, 7);
     EXPECT_EQ((*landmarks)[0].position, Eigen::Vector3d(1.5, -2, 0.3));
-    EXPECT_EQ((*landmarks)[1].index, 0);
+    EXPECT_EQ((*landmarks)[1].point, 0);
     EXPECT_EQ((*landmarks)[1].position, Eigen::Vector3d(0, 0, 4));
   }
 }
@@ -55,7 +55,7 @@ TEST_F(PointLists, LandmarksAreReadInTheOrderOfTheFile) {
 TEST_F(PointLists, LandmarksNeedNoHeader) {
   const StatusOr<std::vector<Landmark>> landmarks = Landmarks("99,1,2,3\n");
   ASSERT_TRUE(landmarks.ok()) << landmarks.status().message();
-  EXPECT_EQ((*landmarks)[0].index, 99);
+  EXPECT_EQ((*landmarks)[0].point, 99);
 }
 
 TEST_F(PointLists, LandmarkErrorsNameLineAndValue) {

@@ -28,7 +28,7 @@ class SceneTruthTest : public ::testing::Test {
       poses_[frame] = pose;
     }
     EXPECT_FALSE(HoldsSceneTruth(dir_.path()));
-    EXPECT_TRUE((*writer)->Finish().ok());
+    EXPECT_TRUE((*writer)->Close().ok());
   }
 
   static std::vector<Eigen::Vector3d> PointsOf(int frame) {

@@ -1,6 +1,5 @@
 #include "ceres_ed/pipeline/slam/map_export.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 

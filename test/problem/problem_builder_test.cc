@@ -37,11 +37,11 @@ void ExpectCounts(const StripBuilder& strip, const ProblemConfig& config, const 
   EXPECT_EQ(summary.num_effective_parameters_reduced, expected.reduced_effective_parameters);
 }
 
-ProblemConfig LevelOne(const StripBuilder& strip, SeamEdges seam_edges, int rings) {
+ProblemConfig LevelOne(const StripBuilder& strip, BoundaryEdges boundary_edges, int rings) {
   return LevelOneConfig(strip.problem.graph,
                         strip.builder.PointRelevantNodes(),
                         strip.builder.has_camera(),
-                        seam_edges,
+                        boundary_edges,
                         rings);
 }
 
@@ -65,24 +65,24 @@ TEST(ProblemBuilder, FullProblemHasEverything) {
 // With `rings`, 3 + rings columns are variable. `kKeep` has the edges in the 3 + rings gaps to the
 // right (2 * 3 each) and within the columns (2 * 2 each). The next column is part of the problem
 // and constant.
-TEST(ProblemBuilder, LevelOneKeepsTheSeamEdges) {
+TEST(ProblemBuilder, LevelOneKeepsTheBoundaryEdges) {
   const StripBuilder strip(HalfSeen());
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kKeep, 0), {9 + 30 + 4, 12, 9, 108});
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kKeep, 1), {12 + 40 + 4, 15, 12, 144});
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kKeep, 2), {15 + 50 + 4, 18, 15, 180});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kKeep, 0), {9 + 30 + 4, 12, 9, 108});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kKeep, 1), {12 + 40 + 4, 15, 12, 144});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kKeep, 2), {15 + 50 + 4, 18, 15, 180});
 }
 
-TEST(ProblemBuilder, LevelOneCutsTheSeamEdges) {
+TEST(ProblemBuilder, LevelOneCutsTheBoundaryEdges) {
   const StripBuilder strip(HalfSeen());
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kCut, 0), {9 + 24 + 4, 9, 9, 108});
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kCut, 1), {12 + 34 + 4, 12, 12, 144});
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kCut, 2), {15 + 44 + 4, 15, 15, 180});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kCut, 0), {9 + 24 + 4, 9, 9, 108});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kCut, 1), {12 + 34 + 4, 12, 12, 144});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kCut, 2), {15 + 44 + 4, 15, 15, 180});
 }
 
 TEST(ProblemBuilder, LevelOneHasTheCamera) {
   const StripBuilder strip(HalfSeen(true));
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kKeep, 0), {9 + 30 + 4, 14, 11, 114});
-  ExpectCounts(strip, LevelOne(strip, SeamEdges::kCut, 0), {9 + 24 + 4, 11, 11, 114});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kKeep, 0), {9 + 30 + 4, 14, 11, 114});
+  ExpectCounts(strip, LevelOne(strip, BoundaryEdges::kCut, 0), {9 + 24 + 4, 11, 11, 114});
 }
 
 TEST(ProblemBuilder, LevelTwoHasThePointIrrelevantNodesAlone) {
@@ -97,22 +97,23 @@ TEST(ProblemBuilder, ObservationsAreNeverCut) {
   ProblemConfig config;
   config.variable_nodes.assign(18, 0);
   config.variable_nodes[0] = 1;
-  config.seam_edges = SeamEdges::kCut;
+  config.boundary_edges = BoundaryEdges::kCut;
   // Node 0 has its own rotation residual, no edge, and the one point of its cell, which touches
   // four nodes and the camera.
   ExpectCounts(strip, config, {1 + 0 + 1, 6, 1, 12});
 }
 
-TEST(ProblemBuilder, CutTakesOutExactlyTheEdgesAcrossTheSeam) {
+TEST(ProblemBuilder, CutTakesOutExactlyTheEdgesAcrossTheBoundary) {
   const StripBuilder strip(HalfSeen());
   const std::vector<char> relevant = strip.builder.PointRelevantNodes();
-  for (const SeamEdges seam_edges : {SeamEdges::kKeep, SeamEdges::kCut}) {
+  for (const BoundaryEdges boundary_edges : {BoundaryEdges::kKeep, BoundaryEdges::kCut}) {
     int across = 0;
-    for (const SelectedResidual& residual : strip.builder.Select(LevelOne(strip, seam_edges, 0))) {
+    for (const SelectedResidual& residual :
+         strip.builder.Select(LevelOne(strip, boundary_edges, 0))) {
       if (residual.term != strip.regularization) continue;
       across += relevant[residual.blocks[0].node] != relevant[residual.blocks[1].node];
     }
-    EXPECT_EQ(across, seam_edges == SeamEdges::kKeep ? 6 : 0);
+    EXPECT_EQ(across, boundary_edges == BoundaryEdges::kKeep ? 6 : 0);
   }
 }
 
@@ -158,8 +159,8 @@ TEST(ProblemBuilder, CollectingAnewReplacesTheResiduals) {
 TEST(ProblemBuilder, HeldBlocksComeBackBitEqual) {
   const StripBuilder strip(HalfSeen(true));
   const DeformationState start = RandomState(strip.problem, 0.1, 3);
-  const ProblemConfig configs[] = {LevelOne(strip, SeamEdges::kKeep, 0),
-                                   LevelOne(strip, SeamEdges::kCut, 1),
+  const ProblemConfig configs[] = {LevelOne(strip, BoundaryEdges::kKeep, 0),
+                                   LevelOne(strip, BoundaryEdges::kCut, 1),
                                    LevelTwoConfig(strip.builder.PointRelevantNodes())};
   for (const ProblemConfig& config : configs) {
     DeformationState state = start;

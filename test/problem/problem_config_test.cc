@@ -30,18 +30,18 @@ TEST(LevelOneConfig, HasThePointRelevantNodesAndTheirRings) {
   const TestProblem strip = Strip();
   for (int rings = 0; rings <= 7; ++rings) {
     const ProblemConfig config =
-        LevelOneConfig(strip.graph, FirstColumns(1), true, SeamEdges::kCut, rings);
+        LevelOneConfig(strip.graph, FirstColumns(1), true, BoundaryEdges::kCut, rings);
     EXPECT_EQ(config.variable_nodes, FirstColumns(std::min(6, 1 + rings))) << rings;
     EXPECT_EQ(config.NumVariableNodes(), 3 * std::min(6, 1 + rings));
     EXPECT_TRUE(config.camera_variable);
-    EXPECT_EQ(config.seam_edges, SeamEdges::kCut);
+    EXPECT_EQ(config.boundary_edges, BoundaryEdges::kCut);
   }
 }
 
 TEST(LevelOneConfig, HoldsEveryNodeWhereNothingIsSeen) {
   const TestProblem strip = Strip();
   const ProblemConfig config =
-      LevelOneConfig(strip.graph, std::vector<char>(18, 0), false, SeamEdges::kKeep, 3);
+      LevelOneConfig(strip.graph, std::vector<char>(18, 0), false, BoundaryEdges::kKeep, 3);
   EXPECT_EQ(config.NumVariableNodes(), 0);
   EXPECT_FALSE(config.camera_variable);
 }
@@ -51,7 +51,7 @@ TEST(LevelTwoConfig, HasTheRestAndNoCamera) {
   EXPECT_EQ(config.NumVariableNodes(), 12);
   for (int j = 0; j < 18; ++j) EXPECT_EQ(config.variable_nodes[j] != 0, j >= 6);
   EXPECT_FALSE(config.camera_variable);
-  EXPECT_EQ(config.seam_edges, SeamEdges::kKeep);
+  EXPECT_EQ(config.boundary_edges, BoundaryEdges::kKeep);
 }
 
 }  // namespace

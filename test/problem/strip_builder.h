@@ -2,7 +2,7 @@
 #ifndef CERES_ED_TEST_PROBLEM_STRIP_BUILDER_H_
 #define CERES_ED_TEST_PROBLEM_STRIP_BUILDER_H_
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>

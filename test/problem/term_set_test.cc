@@ -1,6 +1,6 @@
 #include "ceres_ed/problem/term_set.h"
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/testing/test_problem.h>
 
 #include <cmath>
@@ -81,14 +81,14 @@ TEST(TermSet, TakesTheWidthOfALossFromWhereItsRuleSays) {
   TermRule planes;
   planes.loss_width = LossWidth::kCorrespondences;
   TermRule features;
-  features.loss_width = LossWidth::kLandmarks;
+  features.loss_width = LossWidth::kFeatures;
   strip.Add("point_to_plane", planes);
   strip.Add("landmark", features);
   // The same energies of a user's have the width that the user gave them.
   strip.Add("point_to_plane", {});
   strip.Add("landmark", {});
   strip.inputs.correspondence_width = 0.125;
-  strip.inputs.landmark_width = 0.25;
+  strip.inputs.feature_width = 0.25;
   strip.terms.AddTo(strip.inputs, TermLevels::kLevelOne, &strip.builder);
   const double expected[] = {0.125, 0.25, 0.5, 0.5};
   for (int i = 0; i < 4; ++i) {
@@ -122,7 +122,7 @@ TEST(TermSet, ShowsEachTermThePairsOfItsRule) {
   thinned.matched = true;
   thinned.thinned = true;
   TermRule pinned;
-  pinned.landmarks = LandmarkSource::kPinned;
+  pinned.pairs = PairSource::kPinned;
   strip.Add("point_to_point", thinned);
   strip.Add("landmark", pinned);
   strip.Add("landmark", {});

@@ -1,5 +1,5 @@
 // What a fit reports while it runs.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/simulation/shapes.h>
 

@@ -1,5 +1,5 @@
 // Fits a textured sheet that has slid along itself, so that only its brightness shows the motion.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/registration/fit.h>
 
 #include <algorithm>

@@ -1,6 +1,6 @@
 // Several fits and trackers at once, each in a thread of its own with helpers of its own: the bytes
 // are those of one after the other. Built with the thread sanitizer too, which has to stay silent.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/simulation/deformations.h>
 #include <ceres_ed/simulation/shapes.h>

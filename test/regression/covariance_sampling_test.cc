@@ -1,6 +1,6 @@
 // Covariances against what they are about: how far the minimum goes when every residual is given
 // an error of its own.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/solver/covariance/state_covariance.h>
 #include <ceres_ed/testing/residual_collection.h>

@@ -2,7 +2,7 @@
 #ifndef CERES_ED_TEST_REGRESSION_DROPPED_TRANSLATIONS_H_
 #define CERES_ED_TEST_REGRESSION_DROPPED_TRANSLATIONS_H_
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
@@ -27,7 +27,7 @@ namespace ceres_ed {
 enum class Dropped {
   kNowhere,
   // On edges between a PR and a PI node.
-  kAtSeam,
+  kAtBoundary,
   kEverywhere,
 };
 
@@ -43,7 +43,7 @@ inline DeformationGraph KeepEdges(const DeformationGraph& graph, const EdgePredi
   return kept;
 }
 
-// What is left of E_reg to either level where the seam's columns of t_k are dropped: an edge
+// What is left of E_reg to either level where the boundary's columns of t_k are dropped: an edge
 // belongs to the node that it leaves.
 inline DeformationGraph WithoutEdgesFromHidden(const DeformationGraph& graph,
                                                const std::vector<char>& relevant) {
@@ -135,8 +135,8 @@ class Band {
   int num_nodes() const { return problem_.graph.num_nodes(); }
   int camera_offset() const { return kNodeSize * num_nodes(); }
   ProblemConfig Full() const { return FullConfig(num_nodes(), true); }
-  ProblemConfig LevelOne(SeamEdges seam_edges) const {
-    return LevelOneConfig(graph(), PointRelevant(), true, seam_edges, 0);
+  ProblemConfig LevelOne(BoundaryEdges boundary_edges) const {
+    return LevelOneConfig(graph(), PointRelevant(), true, boundary_edges, 0);
   }
   ProblemConfig LevelTwo() const { return LevelTwoConfig(PointRelevant()); }
   std::vector<char> PointRelevant() const { return builder_.PointRelevantNodes(); }

@@ -1,13 +1,13 @@
 // What becomes of Eq. 3 when the Jacobian of E_reg by t_k is dropped. The paper says that this is
 // the same as its two levels; how far that holds:
 //
-//  - Dropped on the edges across the seam, from matrix and gradient alike, Lambda_cf is zero and
-//  the
-//    step is that of two levels. But they share the seam's edges out, by where each one starts:
+//  - Dropped on the edges across the boundary, from matrix and gradient alike, Lambda_cf is zero
+//  and the
+//    step is that of two levels. But they share the boundary's edges out, by where each one starts:
 //    neither `keep`, where both levels have them all, nor `cut`. And they go side by side: Level II
 //    sees PR nodes where they were.
 //  - Its fixed point is that of no energy, and not batch's. Hidden nodes are held by their own
-//    edges alone, which let the hidden part turn about the seam.
+//    edges alone, which let the hidden part turn about the boundary.
 //  - Dropped from the matrix only, the fixed point is batch's, but steps overshoot.
 //  - Dropped everywhere, nodes that are seen lose one another, too.
 #include <algorithm>
@@ -79,16 +79,16 @@ double CameraDistance(const DeformationState& a, const DeformationState& b) {
 // What the two levels make of a state in a step each.
 DeformationState StepOfLevels(const Band& band, const DeformationState& start) {
   const DeformationState seen =
-      SolveLevel(band.builder(), band.LevelOne(SeamEdges::kKeep), 1, start);
+      SolveLevel(band.builder(), band.LevelOne(BoundaryEdges::kKeep), 1, start);
   return SolveLevel(band.builder(), band.LevelTwo(), 1, seen);
 }
 
-TEST(DroppedTranslations, AtTheSeamStepLikeLevelsThatShareItsEdgesOut) {
+TEST(DroppedTranslations, AtTheBoundaryStepLikeLevelsThatShareItsEdgesOut) {
   const Band band(MakeBand(kColumns, kSeenColumns));
   const std::vector<char> relevant = band.PointRelevant();
   // Near rest, so that no gradient is zero and no step is refused.
   const DeformationState start = RandomState(band.problem(), 1e-3, 7);
-  const DenseResiduals dense = band.Linearize(start, Dropped::kAtSeam);
+  const DenseResiduals dense = band.Linearize(start, Dropped::kAtBoundary);
   const MatrixXd matrix = Normal(dense);
   const std::vector<int> c = Unknowns(band, true);
   const std::vector<int> f = Unknowns(band, false);
@@ -101,12 +101,12 @@ TEST(DroppedTranslations, AtTheSeamStepLikeLevelsThatShareItsEdgesOut) {
       dense.jacobian.transpose() * band.Linearize(start, Dropped::kNowhere).jacobian;
   EXPECT_GT((change - change.transpose()).cwiseAbs().maxCoeff(), 1.0);
 
-  // Level I with the seam's edges that PR nodes have kept and those that PI nodes have cut; Level
-  // II the other way round, and from PR nodes where they were before Level I.
+  // Level I with the boundary's edges that PR nodes have kept and those that PI nodes have cut;
+  // Level II the other way round, and from PR nodes where they were before Level I.
   const Band one(band.OnGraph(WithoutEdgesFromHidden(band.graph(), relevant)));
   const Band two(band.OnGraph(WithoutEdgesFromSeen(band.graph(), relevant)));
   const DeformationState level_one =
-      SolveLevel(one.builder(), one.LevelOne(SeamEdges::kKeep), 1, start);
+      SolveLevel(one.builder(), one.LevelOne(BoundaryEdges::kKeep), 1, start);
   const DeformationState level_two = SolveLevel(two.builder(), two.LevelTwo(), 1, start);
   const double moved = Distance(stepped, start, relevant, true);
   EXPECT_LT(Distance(stepped, level_one, relevant, true), 1e-6 * moved);
@@ -116,17 +116,18 @@ TEST(DroppedTranslations, AtTheSeamStepLikeLevelsThatShareItsEdgesOut) {
   EXPECT_LT(Distance(stepped, level_two, relevant, false), 1e-6 * hidden_moved);
 
   // Neither reading of Level I.
-  for (const SeamEdges seam_edges : {SeamEdges::kKeep, SeamEdges::kCut}) {
-    const DeformationState level = SolveLevel(band.builder(), band.LevelOne(seam_edges), 1, start);
+  for (const BoundaryEdges boundary_edges : {BoundaryEdges::kKeep, BoundaryEdges::kCut}) {
+    const DeformationState level =
+        SolveLevel(band.builder(), band.LevelOne(boundary_edges), 1, start);
     EXPECT_GT(Distance(stepped, level, relevant, true), 0.1 * moved);
   }
 }
 
-TEST(DroppedTranslations, AtTheSeamLeaveHiddenNodesBehindByAStep) {
+TEST(DroppedTranslations, AtTheBoundaryLeaveHiddenNodesBehindByAStep) {
   const Band band(MakeBand(kColumns, kSeenColumns));
   const std::vector<char> relevant = band.PointRelevant();
   const DeformationState rest(band.num_nodes());
-  const DenseResiduals dense = band.Linearize(rest, Dropped::kAtSeam);
+  const DenseResiduals dense = band.Linearize(rest, Dropped::kAtBoundary);
   const DeformationState stepped = band.Plus(rest, Step(Normal(dense), Gradient(dense)));
   EXPECT_GT(Distance(stepped, rest, relevant, true), 0.1);
   EXPECT_LT(Distance(stepped, rest, relevant, false), 1e-12);
@@ -134,12 +135,12 @@ TEST(DroppedTranslations, AtTheSeamLeaveHiddenNodesBehindByAStep) {
   EXPECT_GT(Distance(StepOfLevels(band, rest), rest, relevant, false), 0.1);
 }
 
-TEST(DroppedTranslations, AtTheSeamFromMatrixAloneNeverSettle) {
+TEST(DroppedTranslations, AtTheBoundaryFromMatrixAloneNeverSettle) {
   const Band band(MakeBand(kColumns, kSeenColumns));
   const DeformationState rest(band.num_nodes());
   const DeformationState batch = SolveLevel(band.builder(), band.Full(), 100, rest);
   const DenseResiduals full = band.Linearize(batch, Dropped::kNowhere);
-  const MatrixXd dropped = Normal(band.Linearize(batch, Dropped::kAtSeam));
+  const MatrixXd dropped = Normal(band.Linearize(batch, Dropped::kAtBoundary));
   // Batch's minimum is the fixed point ...
   EXPECT_LT(Step(dropped, Gradient(full)).norm(), 1e-6);
   // ... but a step of dropped^-1 gradient ends only where no direction is more than twice as stiff
@@ -153,21 +154,21 @@ TEST(DroppedTranslations, AtTheSeamFromMatrixAloneNeverSettle) {
   DeformationState state = rest;
   for (int i = 0; i < 3; ++i) {
     state = band.Plus(state,
-                      Step(Normal(band.Linearize(state, Dropped::kAtSeam)),
+                      Step(Normal(band.Linearize(state, Dropped::kAtBoundary)),
                            Gradient(band.Linearize(state, Dropped::kNowhere))));
   }
   EXPECT_GT(band.Energy(state), 1e3 * band.Energy(rest));
 }
 
-TEST(DroppedTranslations, AtTheSeamLetTheHiddenPartTurnAboutIt) {
+TEST(DroppedTranslations, AtTheBoundaryLetTheHiddenPartTurnAboutIt) {
   const Band band(MakeBand(kColumns, kSeenColumns));
   const std::vector<char> relevant = band.PointRelevant();
   // A turn of all PI nodes about the line of the last PR nodes, the first column beyond the points.
-  const int seam = 3 * kSeenColumns;
-  ASSERT_TRUE(relevant[seam] && !relevant[seam + 3]);
-  const Eigen::Vector3d& place = band.graph().position(seam + 1);
+  const int boundary = 3 * kSeenColumns;
+  ASSERT_TRUE(relevant[boundary] && !relevant[boundary + 3]);
+  const Eigen::Vector3d& place = band.graph().position(boundary + 1);
   const Eigen::Vector3d axis =
-      (band.graph().position(seam + 2) - band.graph().position(seam)).normalized();
+      (band.graph().position(boundary + 2) - band.graph().position(boundary)).normalized();
   VectorXd turn = VectorXd::Zero(band.camera_offset() + 6);
   for (int j = 0; j < band.num_nodes(); ++j) {
     if (relevant[j]) continue;
@@ -181,7 +182,7 @@ TEST(DroppedTranslations, AtTheSeamLetTheHiddenPartTurnAboutIt) {
   const auto stiffness = [&](Dropped dropped) {
     return (band.Linearize(rest, dropped).jacobian * turn).squaredNorm();
   };
-  const double share = stiffness(Dropped::kAtSeam) / stiffness(Dropped::kNowhere);
+  const double share = stiffness(Dropped::kAtBoundary) / stiffness(Dropped::kNowhere);
   RecordProperty("share", std::to_string(share));
   EXPECT_LT(share, 0.01);
 }
@@ -205,7 +206,7 @@ TEST(DroppedTranslations, AreNotNeededForLevelsThatRepeat) {
   DeformationState state = rest;
   for (int round = 0; round < 60; ++round) {
     before = after;
-    state = SolveLevel(band.builder(), band.LevelOne(SeamEdges::kKeep), 20, state);
+    state = SolveLevel(band.builder(), band.LevelOne(BoundaryEdges::kKeep), 20, state);
     state = SolveLevel(band.builder(), band.LevelTwo(), 20, state);
     after = band.Energy(state) - lowest;
   }
@@ -214,7 +215,7 @@ TEST(DroppedTranslations, AreNotNeededForLevelsThatRepeat) {
   EXPECT_NEAR(std::sqrt(after / before), rate, 0.02 * rate);
 }
 
-// The fixed point of dropping at the seam: each level at its minimum, given the other's nodes.
+// The fixed point of dropping at the boundary: each level at its minimum, given the other's nodes.
 DeformationState FixedPointOfSharedEdges(const RegressionScene& scene,
                                          const std::vector<char>& relevant) {
   RegressionScene one = scene;
@@ -224,7 +225,7 @@ DeformationState FixedPointOfSharedEdges(const RegressionScene& scene,
   const SceneProblem problem_one(one);
   const SceneProblem problem_two(two);
   const ProblemConfig level_one =
-      LevelOneConfig(one.graph.graph, relevant, false, SeamEdges::kKeep, 0);
+      LevelOneConfig(one.graph.graph, relevant, false, BoundaryEdges::kKeep, 0);
   DeformationState state(scene.graph.graph.num_nodes());
   for (int round = 0; round < 200; ++round) {
     const DeformationState before = state;
@@ -239,7 +240,7 @@ DeformationState FixedPointOfSharedEdges(const RegressionScene& scene,
 
 // What it loses against batch: bounds are 0.7 and 1.3 times what was measured. One round of `keep`
 // loses more; one round of `cut` less on two of three, and none of what is seen.
-TEST(DroppedTranslations, AtTheSeamEndAwayFromBatch) {
+TEST(DroppedTranslations, AtTheBoundaryEndAwayFromBatch) {
   struct Loss {
     RegressionScene scene;
     double energy;
@@ -251,8 +252,8 @@ TEST(DroppedTranslations, AtTheSeamEndAwayFromBatch) {
     const SceneProblem problem(scene);
     const std::vector<char> relevant = problem.builder().PointRelevantNodes();
     const SceneResult batch = problem.Solve(BatchOptions());
-    const SceneResult cut = problem.Solve(TwoLevelOptions(SeamEdges::kCut, 0));
-    const SceneResult keep = problem.Solve(TwoLevelOptions(SeamEdges::kKeep, 0));
+    const SceneResult cut = problem.Solve(TwoLevelOptions(BoundaryEdges::kCut, 0));
+    const SceneResult keep = problem.Solve(TwoLevelOptions(BoundaryEdges::kKeep, 0));
     const DeformationState state = FixedPointOfSharedEdges(scene, relevant);
     const double loss = problem.Energy(state) / batch.energy - 1.0;
     const double visible_loss = problem.Measure(state).visible_rms / batch.visible_rms - 1.0;
@@ -275,9 +276,9 @@ TEST(DroppedTranslations, EverywhereAreNotBatchEvenWhereAllIsSeen) {
   const DeformationState rest(band.num_nodes());
   const DenseResiduals full = band.Linearize(rest, Dropped::kNowhere);
   const VectorXd batch_step = Step(Normal(full), Gradient(full));
-  // There is no seam to drop anything at ...
-  const DenseResiduals at_seam = band.Linearize(rest, Dropped::kAtSeam);
-  EXPECT_EQ((at_seam.jacobian - full.jacobian).cwiseAbs().maxCoeff(), 0.0);
+  // There is no boundary to drop anything at ...
+  const DenseResiduals at_boundary = band.Linearize(rest, Dropped::kAtBoundary);
+  EXPECT_EQ((at_boundary.jacobian - full.jacobian).cwiseAbs().maxCoeff(), 0.0);
   // ... but dropped everywhere the step is another one, with either gradient: at rest they agree.
   const DenseResiduals everywhere = band.Linearize(rest, Dropped::kEverywhere);
   const VectorXd step = Step(Normal(everywhere), Gradient(everywhere));

@@ -1,5 +1,5 @@
 // A fit is never worse than the rigid placement.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/energy/point_energy.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/simulation/deformations.h>

@@ -1,5 +1,5 @@
 // What a fit may not depend on: units, place, order, threads, luck.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/fit.h>

@@ -1,6 +1,6 @@
 // How well default fits do, on the pairs in data/ and on real ones: no change may make them worse
 // unnoticed.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/registration/fit.h>

@@ -62,9 +62,9 @@ TEST(Reflection, DoesNotHappenFromRest) {
   for (const RegressionScene& scene : {MakeStripScene(), MakePlaneScene(), MakeHeartScene()}) {
     const SceneProblem problem(scene);
     for (const StrategyOptions& options : {BatchOptions(),
-                                           TwoLevelOptions(SeamEdges::kKeep, 0),
-                                           TwoLevelOptions(SeamEdges::kKeep, 2),
-                                           TwoLevelOptions(SeamEdges::kCut, 0)}) {
+                                           TwoLevelOptions(BoundaryEdges::kKeep, 0),
+                                           TwoLevelOptions(BoundaryEdges::kKeep, 2),
+                                           TwoLevelOptions(BoundaryEdges::kCut, 0)}) {
       EXPECT_GT(SmallestDeterminant(problem.Solve(options).state), 0.2) << scene.name;
     }
   }

@@ -14,7 +14,7 @@
 namespace ceres_ed {
 namespace {
 
-constexpr SeamEdges kSeams[] = {SeamEdges::kKeep, SeamEdges::kCut};
+constexpr BoundaryEdges kBoundaries[] = {BoundaryEdges::kKeep, BoundaryEdges::kCut};
 
 double LargestDistance(const SceneResult& a, const SceneResult& b) {
   double largest = 0.0;
@@ -37,8 +37,8 @@ TEST(TwoLevel, EqualsBatchWhereEveryNodeIsPointRelevant) {
   const SceneProblem problem(scene);
   ASSERT_EQ(NumPointRelevant(problem), scene.graph.graph.num_nodes());
   const SceneResult batch = problem.Solve(BatchOptions());
-  for (const SeamEdges seam_edges : kSeams) {
-    const SceneResult two_level = problem.Solve(TwoLevelOptions(seam_edges, 0));
+  for (const BoundaryEdges boundary_edges : kBoundaries) {
+    const SceneResult two_level = problem.Solve(TwoLevelOptions(boundary_edges, 0));
     EXPECT_NEAR(two_level.energy, batch.energy, 1e-9 * batch.energy);
     EXPECT_LT(LargestDistance(two_level, batch), 1e-9);
   }
@@ -49,8 +49,8 @@ TEST(TwoLevel, EqualsBatchWhereTheRingsReachEveryNode) {
   const SceneProblem problem(scene);
   ASSERT_LT(NumPointRelevant(problem), scene.graph.graph.num_nodes());
   const SceneResult batch = problem.Solve(BatchOptions());
-  for (const SeamEdges seam_edges : kSeams) {
-    const SceneResult two_level = problem.Solve(TwoLevelOptions(seam_edges, 20));
+  for (const BoundaryEdges boundary_edges : kBoundaries) {
+    const SceneResult two_level = problem.Solve(TwoLevelOptions(boundary_edges, 20));
     EXPECT_NEAR(two_level.energy, batch.energy, 1e-9 * batch.energy);
     EXPECT_LT(LargestDistance(two_level, batch), 1e-5);
   }
@@ -58,7 +58,7 @@ TEST(TwoLevel, EqualsBatchWhereTheRingsReachEveryNode) {
 
 // Loss against batch, as a share of the batch's own figure.
 struct Loss {
-  SeamEdges seam_edges;
+  BoundaryEdges boundary_edges;
   int rings;
   double energy;
   double visible;
@@ -70,10 +70,10 @@ void ExpectNoMoreThan(const RegressionScene& scene, const std::vector<Loss>& bou
   const SceneResult batch = problem.Solve(BatchOptions());
   ASSERT_EQ(batch.summary.status, SolveStatus::kConverged);
   for (const Loss& bound : bounds) {
-    const SceneResult found = problem.Solve(TwoLevelOptions(bound.seam_edges, bound.rings));
-    const std::string what = scene.name +
-                             (bound.seam_edges == SeamEdges::kKeep ? ", keep, " : ", cut, ") +
-                             std::to_string(bound.rings) + " rings";
+    const SceneResult found = problem.Solve(TwoLevelOptions(bound.boundary_edges, bound.rings));
+    const std::string what =
+        scene.name + (bound.boundary_edges == BoundaryEdges::kKeep ? ", keep, " : ", cut, ") +
+        std::to_string(bound.rings) + " rings";
     EXPECT_EQ(found.summary.status, SolveStatus::kConverged) << what;
     EXPECT_LE(found.energy / batch.energy - 1.0, bound.energy) << what;
     EXPECT_LE(found.visible_rms / batch.visible_rms - 1.0, bound.visible) << what;
@@ -86,41 +86,41 @@ void ExpectNoMoreThan(const RegressionScene& scene, const std::vector<Loss>& bou
 // Bounds are 1.3 times what was measured; 1e-4 where there was no loss.
 TEST(TwoLevel, LosesNoMoreThanThisOnAStrip) {
   ExpectNoMoreThan(MakeStripScene(),
-                   {{SeamEdges::kKeep, 0, 43.0, 13.7, 7.6},
-                    {SeamEdges::kKeep, 2, 3.33, 1.85, 2.09},
-                    {SeamEdges::kKeep, 4, 0.59, 0.38, 0.52},
-                    {SeamEdges::kCut, 0, 3.0e-3, 1e-4, 5.2e-3},
-                    {SeamEdges::kCut, 2, 1e-4, 1e-4, 1e-4},
-                    {SeamEdges::kCut, 4, 1e-4, 1e-4, 1e-4}});
+                   {{BoundaryEdges::kKeep, 0, 43.0, 13.7, 7.6},
+                    {BoundaryEdges::kKeep, 2, 3.33, 1.85, 2.09},
+                    {BoundaryEdges::kKeep, 4, 0.59, 0.38, 0.52},
+                    {BoundaryEdges::kCut, 0, 3.0e-3, 1e-4, 5.2e-3},
+                    {BoundaryEdges::kCut, 2, 1e-4, 1e-4, 1e-4},
+                    {BoundaryEdges::kCut, 4, 1e-4, 1e-4, 1e-4}});
 }
 
 TEST(TwoLevel, LosesNoMoreThanThisOnAPlane) {
   ExpectNoMoreThan(MakePlaneScene(),
-                   {{SeamEdges::kKeep, 0, 0.59, 0.54, 1.97},
-                    {SeamEdges::kKeep, 2, 0.103, 0.068, 0.34},
-                    {SeamEdges::kKeep, 4, 0.0133, 0.0169, 0.068},
-                    {SeamEdges::kCut, 0, 0.141, 1e-4, 0.18},
-                    {SeamEdges::kCut, 2, 7.9e-3, 1e-4, 0.052},
-                    {SeamEdges::kCut, 4, 4.5e-4, 1e-4, 0.0135}});
+                   {{BoundaryEdges::kKeep, 0, 0.59, 0.54, 1.97},
+                    {BoundaryEdges::kKeep, 2, 0.103, 0.068, 0.34},
+                    {BoundaryEdges::kKeep, 4, 0.0133, 0.0169, 0.068},
+                    {BoundaryEdges::kCut, 0, 0.141, 1e-4, 0.18},
+                    {BoundaryEdges::kCut, 2, 7.9e-3, 1e-4, 0.052},
+                    {BoundaryEdges::kCut, 4, 4.5e-4, 1e-4, 0.0135}});
 }
 
 TEST(TwoLevel, LosesNoMoreThanThisOnAHeart) {
   ExpectNoMoreThan(MakeHeartScene(),
-                   {{SeamEdges::kKeep, 0, 4.68, 5.98, 2.87},
-                    {SeamEdges::kKeep, 2, 0.087, 0.22, 0.49},
-                    {SeamEdges::kKeep, 4, 1e-4, 1e-4, 1e-4},
-                    {SeamEdges::kCut, 0, 0.346, 1e-4, 1e-4},
-                    {SeamEdges::kCut, 2, 1.5e-3, 1e-4, 1e-4},
-                    {SeamEdges::kCut, 4, 1e-4, 1e-4, 1e-4}});
+                   {{BoundaryEdges::kKeep, 0, 4.68, 5.98, 2.87},
+                    {BoundaryEdges::kKeep, 2, 0.087, 0.22, 0.49},
+                    {BoundaryEdges::kKeep, 4, 1e-4, 1e-4, 1e-4},
+                    {BoundaryEdges::kCut, 0, 0.346, 1e-4, 1e-4},
+                    {BoundaryEdges::kCut, 2, 1.5e-3, 1e-4, 1e-4},
+                    {BoundaryEdges::kCut, 4, 1e-4, 1e-4, 1e-4}});
 }
 
 TEST(TwoLevel, MoreRingsNeverCostEnergy) {
   for (const RegressionScene& scene : {MakeStripScene(), MakePlaneScene()}) {
     const SceneProblem problem(scene);
-    for (const SeamEdges seam_edges : kSeams) {
+    for (const BoundaryEdges boundary_edges : kBoundaries) {
       double fewer_rings = HUGE_VAL;
       for (const int rings : {0, 1, 2, 3, 4, 6, 8}) {
-        const double energy = problem.Solve(TwoLevelOptions(seam_edges, rings)).energy;
+        const double energy = problem.Solve(TwoLevelOptions(boundary_edges, rings)).energy;
         EXPECT_LE(energy, fewer_rings * (1.0 + 1e-9)) << scene.name << ", " << rings << " rings";
         fewer_rings = energy;
       }
@@ -133,8 +133,8 @@ TEST(TwoLevel, CutLosesLessThanKeepWhereObservationsFixThePoints) {
     const SceneProblem problem(scene);
     const double batch = problem.Solve(BatchOptions()).energy;
     for (const int rings : {0, 2}) {
-      const SceneResult keep = problem.Solve(TwoLevelOptions(SeamEdges::kKeep, rings));
-      const SceneResult cut = problem.Solve(TwoLevelOptions(SeamEdges::kCut, rings));
+      const SceneResult keep = problem.Solve(TwoLevelOptions(BoundaryEdges::kKeep, rings));
+      const SceneResult cut = problem.Solve(TwoLevelOptions(BoundaryEdges::kCut, rings));
       EXPECT_LT(cut.energy - batch, 0.3 * (keep.energy - batch)) << scene.name << ", " << rings;
       EXPECT_LT(cut.visible_rms, keep.visible_rms) << scene.name << ", " << rings;
     }
@@ -142,11 +142,11 @@ TEST(TwoLevel, CutLosesLessThanKeepWhereObservationsFixThePoints) {
 }
 
 // kKeep's Level I energy is an upper bound of what Level II leaves: no step costs energy.
-TEST(TwoLevel, NeverRaisesTheEnergyWhereTheSeamIsKept) {
+TEST(TwoLevel, NeverRaisesTheEnergyWhereTheBoundaryIsKept) {
   const RegressionScene scene = MakeStripScene();
   const SceneProblem problem(scene);
   for (const int rings : {0, 2, 4}) {
-    const SceneResult found = problem.Solve(TwoLevelOptions(SeamEdges::kKeep, rings));
+    const SceneResult found = problem.Solve(TwoLevelOptions(BoundaryEdges::kKeep, rings));
     EXPECT_LT(found.energy, found.summary.initial_energy);
     EXPECT_LE(found.summary.levels[1].final_cost, found.summary.levels[1].initial_cost);
   }
@@ -185,8 +185,8 @@ SlidingWindow TrackPlanes(const StrategyOptions& strategy) {
 
 TEST(TwoLevel, KeepHoldsWhatPointToPlaneLeavesFree) {
   const SlidingWindow batch = TrackPlanes(BatchOptions());
-  const SlidingWindow keep = TrackPlanes(TwoLevelOptions(SeamEdges::kKeep, 2));
-  const SlidingWindow cut = TrackPlanes(TwoLevelOptions(SeamEdges::kCut, 2));
+  const SlidingWindow keep = TrackPlanes(TwoLevelOptions(BoundaryEdges::kKeep, 2));
+  const SlidingWindow cut = TrackPlanes(TwoLevelOptions(BoundaryEdges::kCut, 2));
   RecordProperty("visible_rms_batch", std::to_string(batch.visible_rms));
   RecordProperty("visible_rms_keep", std::to_string(keep.visible_rms));
   RecordProperty("visible_rms_cut", std::to_string(cut.visible_rms));

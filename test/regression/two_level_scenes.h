@@ -2,7 +2,7 @@
 #ifndef CERES_ED_TEST_REGRESSION_TWO_LEVEL_SCENES_H_
 #define CERES_ED_TEST_REGRESSION_TWO_LEVEL_SCENES_H_
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/graph/warp.h>
@@ -33,7 +33,7 @@ struct RegressionScene {
   BuiltGraph graph;
 };
 
-inline RegressionScene FinishScene(RegressionScene scene, int nodes) {
+inline RegressionScene CompleteScene(RegressionScene scene, int nodes) {
   GraphOptions options;
   options.target_nodes = nodes;
   StatusOr<BuiltGraph> graph = BuildGraph(scene.rest, options);
@@ -63,7 +63,7 @@ inline RegressionScene MakeStripScene(double phase = 1.0) {
     scene.truth.push_back(p + phase * Eigen::Vector3d(2.0 * (1.0 - x), 0.5, lift));
     scene.visible.push_back(x < 0.35);
   }
-  return FinishScene(std::move(scene), 240);
+  return CompleteScene(std::move(scene), 240);
 }
 
 inline RegressionScene MakeShapeScene(SyntheticShape shape, const SyntheticView& view, int nodes) {
@@ -74,7 +74,7 @@ inline RegressionScene MakeShapeScene(SyntheticShape shape, const SyntheticView&
   const PointCloud truth = DeformSyntheticShape(shape, size, 1.0, scene.rest);
   scene.visible = VisibleVertices(truth, view);
   scene.truth = truth.points;
-  return FinishScene(std::move(scene), nodes);
+  return CompleteScene(std::move(scene), nodes);
 }
 
 // The plane with bumps, of which a window in a corner is seen.
@@ -184,10 +184,10 @@ class SceneProblem {
 
 inline StrategyOptions BatchOptions() { return StrategyOptions(); }
 
-inline StrategyOptions TwoLevelOptions(SeamEdges seam_edges, int rings) {
+inline StrategyOptions TwoLevelOptions(BoundaryEdges boundary_edges, int rings) {
   StrategyOptions options;
   options.mode = SolveMode::kTwoLevel;
-  options.seam_edges = seam_edges;
+  options.boundary_edges = boundary_edges;
   options.rings = rings;
   return options;
 }

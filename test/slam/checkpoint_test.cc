@@ -69,7 +69,7 @@ Everything Example() {
 std::string Save(Everything e) {
   CheckpointWriter writer;
   e.Exchange(&writer);
-  return writer.Finish();
+  return writer.TakeBytes();
 }
 
 std::string OpenError(const std::string& bytes) {
@@ -146,7 +146,7 @@ TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {
   CheckpointWriter writer;
   writer.Rows("rows", &rows);
   writer.Rows("list", &list);
-  const std::string bytes = writer.Finish();
+  const std::string bytes = writer.TakeBytes();
 
   const auto reader = CheckpointReader::Open(bytes);
   ASSERT_TRUE(reader.ok()) << reader.status().message();
@@ -185,7 +185,7 @@ std::vector<FrameReport> Track(int first, int last, DeformableSlam* slam) {
 std::string SaveSlam(DeformableSlam* slam) {
   CheckpointWriter writer;
   slam->Exchange(&writer);
-  return writer.Finish();
+  return writer.TakeBytes();
 }
 
 TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {

@@ -3,7 +3,7 @@
 #ifndef CERES_ED_TEST_SLAM_LEVEL_SCENES_H_
 #define CERES_ED_TEST_SLAM_LEVEL_SCENES_H_
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/slam/levels/levels.h>
 #include <ceres_ed/slam/map/deformable_map.h>
@@ -127,10 +127,10 @@ inline double LargestDifference(const DeformationState& a, const DeformationStat
 // Returns options for exactly three steps, whatever they gain. The same steps from the same start
 // are equal up to rounding, whereas the end of a converged search is known only to the square root
 // of the rounding error.
-inline LevelsOptions ThreeSteps(int rings, SeamEdges seam_edges) {
+inline LevelsOptions ThreeSteps(int rings, BoundaryEdges boundary_edges) {
   LevelsOptions options;
   options.strategy.rings = rings;
-  options.strategy.seam_edges = seam_edges;
+  options.strategy.boundary_edges = boundary_edges;
   options.solver.max_iterations = 3;
   options.solver.function_tolerance = 0.0;
   options.solver.gradient_tolerance = 0.0;
@@ -139,10 +139,10 @@ inline LevelsOptions ThreeSteps(int rings, SeamEdges seam_edges) {
 }
 
 // Returns options with which a solve goes as far as the digits of the energy allow.
-inline LevelsOptions ExactLevels(int rings, SeamEdges seam_edges) {
+inline LevelsOptions ExactLevels(int rings, BoundaryEdges boundary_edges) {
   LevelsOptions options;
   options.strategy.rings = rings;
-  options.strategy.seam_edges = seam_edges;
+  options.strategy.boundary_edges = boundary_edges;
   options.solver.max_iterations = 300;
   options.solver.function_tolerance = 0.0;
   options.solver.gradient_tolerance = 1e-14;

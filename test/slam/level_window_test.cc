@@ -82,14 +82,14 @@ TEST_F(LevelWindowTest, HoldsNeighboursAndWhatIsNamedAndNothingElse) {
 
 TEST_F(LevelWindowTest, MovesVariableNodesAlone) {
   const LevelWindow window = builder_.Build(graph_, state_, {4, 5}, {});
-  const ProblemConfig config = window.Config(/*camera_variable=*/true, SeamEdges::kCut);
+  const ProblemConfig config = window.Config(/*camera_variable=*/true, BoundaryEdges::kCut);
   EXPECT_EQ(config.NumVariableNodes(), 2);
   EXPECT_EQ(config.variable_nodes.size(), window.nodes.size());
   EXPECT_NE(config.variable_nodes[0], 0);
   EXPECT_NE(config.variable_nodes[1], 0);
   EXPECT_TRUE(config.camera_variable);
-  EXPECT_EQ(config.seam_edges, SeamEdges::kCut);
-  EXPECT_FALSE(window.Config(false, SeamEdges::kKeep).camera_variable);
+  EXPECT_EQ(config.boundary_edges, BoundaryEdges::kCut);
+  EXPECT_FALSE(window.Config(false, BoundaryEdges::kKeep).camera_variable);
 }
 
 TEST_F(LevelWindowTest, ForgetsTheWindowBeforeAndFollowsAGrowingGraph) {

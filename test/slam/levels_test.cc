@@ -35,7 +35,7 @@ LevelSummary SolveWholeLevelOne(const LevelScene& scene,
   const ProblemConfig config = LevelOneConfig(scene.map.graph(),
                                               builder->PointRelevantNodes(),
                                               /*has_camera=*/true,
-                                              options.strategy.seam_edges,
+                                              options.strategy.boundary_edges,
                                               options.strategy.rings);
   SolveSummary summary;
   EXPECT_TRUE(
@@ -44,10 +44,10 @@ LevelSummary SolveWholeLevelOne(const LevelScene& scene,
 }
 
 TEST(Levels, LevelOneEqualsThatOfTheWholeGraph) {
-  for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
+  for (const BoundaryEdges boundary : {BoundaryEdges::kKeep, BoundaryEdges::kCut}) {
     for (const int rings : {0, 2}) {
       LevelScene scene;
-      const LevelsOptions options = ThreeSteps(rings, seam);
+      const LevelsOptions options = ThreeSteps(rings, boundary);
       DeformationState expected = scene.map.state();
       const LevelSummary whole =
           SolveWholeLevelOne(scene, options, LinearSolver::kBlock, &expected);
@@ -70,7 +70,7 @@ TEST(Levels, LevelOneEqualsThatOfTheWholeGraph) {
 // energy.
 TEST(Levels, LevelOneEndsWhereCeresDoes) {
   LevelScene scene;
-  const LevelsOptions options = ExactLevels(2, SeamEdges::kKeep);
+  const LevelsOptions options = ExactLevels(2, BoundaryEdges::kKeep);
   DeformationState expected = scene.map.state();
   const LevelSummary whole = SolveWholeLevelOne(scene, options, LinearSolver::kCeres, &expected);
   const LevelReport report =
@@ -80,15 +80,15 @@ TEST(Levels, LevelOneEndsWhereCeresDoes) {
 }
 
 TEST(Levels, BothLevelsEqualTheTwoLevelStrategy) {
-  for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
+  for (const BoundaryEdges boundary : {BoundaryEdges::kKeep, BoundaryEdges::kCut}) {
     for (const int rings : {0, 2}) {
       LevelScene scene;
-      LevelsOptions options = ThreeSteps(rings, seam);
+      LevelsOptions options = ThreeSteps(rings, boundary);
       options.level_two = LevelTwoMode::kFull;
       StrategyOptions strategy;
       strategy.mode = SolveMode::kTwoLevel;
       strategy.rings = rings;
-      strategy.seam_edges = seam;
+      strategy.boundary_edges = boundary;
       const auto builder = scene.WholeProblem(options);
       DeformationState expected = scene.map.state();
       const SolveSummary summary =
@@ -107,7 +107,7 @@ TEST(Levels, BothLevelsEqualTheTwoLevelStrategy) {
 
 TEST(Levels, OfBatchEqualTheBatchStrategy) {
   LevelScene scene;
-  LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
+  LevelsOptions options = ThreeSteps(2, BoundaryEdges::kKeep);
   options.strategy.mode = SolveMode::kBatch;
   const auto builder = scene.WholeProblem(options);
   DeformationState expected = scene.map.state();
@@ -124,7 +124,7 @@ TEST(Levels, OfBatchEqualTheBatchStrategy) {
 // energy of the same name keeps the width that the user has set.
 TEST(Levels, KeepTheWidthOfAUsersLoss) {
   LevelScene scene;
-  LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
+  LevelsOptions options = ThreeSteps(2, BoundaryEdges::kKeep);
   const LossSpec loss = {LossType::kTukey, 0.05};
   const auto builder = scene.WholeProblem(options);
   EnergyRegistry registry;
@@ -148,11 +148,11 @@ TEST(Levels, KeepTheWidthOfAUsersLoss) {
 }
 
 TEST(Levels, LeaveHeldNodesAsTheyAreToTheBit) {
-  for (const SeamEdges seam : {SeamEdges::kKeep, SeamEdges::kCut}) {
+  for (const BoundaryEdges boundary : {BoundaryEdges::kKeep, BoundaryEdges::kCut}) {
     LevelScene scene;
     LevelsOptions options;
     options.strategy.rings = 1;
-    options.strategy.seam_edges = seam;
+    options.strategy.boundary_edges = boundary;
     options.level_two = LevelTwoMode::kFull;
     const auto levels = MakeLevels(options);
     const DeformationState start = scene.map.state();
@@ -348,7 +348,7 @@ TEST(Levels, CountDataPerNodeWhateverTheirNumber) {
   planes.insert(planes.end(), once.observations.planes.begin(), once.observations.planes.end());
   features.insert(
       features.end(), once.observations.features.begin(), once.observations.features.end());
-  const LevelsOptions options = ThreeSteps(2, SeamEdges::kKeep);
+  const LevelsOptions options = ThreeSteps(2, BoundaryEdges::kKeep);
   const LevelReport a = MakeLevels(options)->SolveLevelOne(once.observations, nullptr, &once.map);
   const LevelReport b = MakeLevels(options)->SolveLevelOne(twice.observations, nullptr, &twice.map);
   EXPECT_NEAR(a.energy, b.energy, 1e-9 * a.energy);
@@ -365,7 +365,7 @@ TEST(Levels, TakeMoreEnergiesByName) {
   // A second rotation term has the same effect as a larger weight of the first.
   LevelScene more;
   LevelScene heavier;
-  LevelsOptions exact = ThreeSteps(2, SeamEdges::kKeep);
+  LevelsOptions exact = ThreeSteps(2, BoundaryEdges::kKeep);
   exact.energies = {{"rotation", 0.3, {}, {}}};
   MakeLevels(exact)->SolveLevelOne(more.observations, nullptr, &more.map);
   exact.energies.clear();

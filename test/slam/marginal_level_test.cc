@@ -42,7 +42,7 @@ TEST(MarginalLevels, TakeTheBatchStep) {
   EXPECT_GT(LargestDifference(scene.map.state(), before), 1e-2);
 }
 
-TEST(MarginalLevels, FinishAtTheBatchMinimum) {
+TEST(MarginalLevels, ConvergeToTheBatchMinimum) {
   LevelScene scene;
   LevelsOptions batch;
   batch.strategy.mode = SolveMode::kBatch;
@@ -53,8 +53,8 @@ TEST(MarginalLevels, FinishAtTheBatchMinimum) {
   LevelReport report;
   // The start is far away: with robust losses more steps are needed than in a frame.
   for (int k = 0; k < 3; ++k) {
-    whole = reference->FinishLevelOne(scene.observations, nullptr, &expected);
-    report = levels->FinishLevelOne(scene.observations, nullptr, &scene.map);
+    whole = reference->ConvergeLevelOne(scene.observations, nullptr, &expected);
+    report = levels->ConvergeLevelOne(scene.observations, nullptr, &scene.map);
   }
   EXPECT_EQ(whole.status, SolveStatus::kConverged);
   EXPECT_EQ(report.status, SolveStatus::kConverged);
@@ -83,7 +83,7 @@ TEST(MarginalLevels, EliminateWithinTheirReach) {
 TEST(MarginalLevels, UseAnEliminationAgain) {
   LevelScene scene;
   const auto levels = MakeLevels(Marginal(LevelTwoMode::kFull));
-  levels->FinishLevelOne(scene.observations, nullptr, &scene.map);
+  levels->ConvergeLevelOne(scene.observations, nullptr, &scene.map);
   const int before = levels->solver().marginalization().num_eliminations();
   EXPECT_GT(before, 0);
   // At the minimum nothing moves, so the next frame needs no new elimination.

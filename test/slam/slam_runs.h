@@ -2,7 +2,7 @@
 #ifndef CERES_ED_TEST_SLAM_SLAM_RUNS_H_
 #define CERES_ED_TEST_SLAM_SLAM_RUNS_H_
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/evaluation/sequence_evaluation.h>
 #include <ceres_ed/evaluation/true_surface.h>
 #include <ceres_ed/graph/warp.h>

@@ -205,7 +205,7 @@ TEST(DeformableSlam, TwoLevelAgreesWithBatch) {
   EXPECT_EQ(batch.reports.back().active, batch.reports[6].nodes);
   const FrameTruthError a = Evaluate(StripSequence(), two_level).back();
   const FrameTruthError b = Evaluate(StripSequence(), batch).back();
-  // Without a ring of PI nodes the seam is held for a frame. This costs 2 to 4 % here (and,
+  // Without a ring of PI nodes the boundary is held for a frame. This costs 2 to 4 % here (and,
   // according to the paper, up to 32 % on its organs).
   EXPECT_NEAR(a.surface_seen->p50, b.surface_seen->p50, 0.1 * b.surface_seen->p50);
   EXPECT_NEAR(a.tracking_seen->mean, b.tracking_seen->mean, 0.1 * b.tracking_seen->mean);

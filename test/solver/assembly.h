@@ -2,7 +2,7 @@
 #ifndef CERES_ED_TEST_SOLVER_ASSEMBLY_H_
 #define CERES_ED_TEST_SOLVER_ASSEMBLY_H_
 
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/testing/residual_collection.h>

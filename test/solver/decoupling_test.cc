@@ -35,7 +35,7 @@ StrategyOptions Options(SolveMode mode, int rings, int reach = -1) {
   options.mode = mode;
   options.rings = rings;
   options.marginal_reach = reach;
-  options.seam_edges = SeamEdges::kCut;
+  options.boundary_edges = BoundaryEdges::kCut;
   return options;
 }
 
@@ -55,7 +55,7 @@ TEST(Decoupler, OfTwoLevelMovesRingsAndHoldsTheRest) {
     const Decoupling& nodes = decoupler.Choose(strip.graph, Columns(10, 12));
     EXPECT_THAT(nodes.moved.nodes(), ElementsAreArray(Columns(10 - rings, 12 + rings).nodes()));
     EXPECT_TRUE(nodes.eliminated.empty());
-    EXPECT_EQ(nodes.seam_edges, SeamEdges::kCut);
+    EXPECT_EQ(nodes.boundary_edges, BoundaryEdges::kCut);
     EXPECT_TRUE(nodes.HoldsNodes(120));
   }
 }
@@ -73,8 +73,9 @@ TEST(Decoupler, OfMarginalEliminatesWithinItsReach) {
   const Decoupling& nodes = decoupler.Choose(strip.graph, Columns(0, 2));
   EXPECT_THAT(nodes.moved.nodes(), ElementsAreArray(Columns(0, 3).nodes()));
   EXPECT_THAT(nodes.eliminated.nodes(), ElementsAreArray(Columns(3, 6).nodes()));
-  // A prior at the seam has been eliminated with the nodes behind it, so there is nothing to cut.
-  EXPECT_EQ(nodes.seam_edges, SeamEdges::kKeep);
+  // A prior at the boundary has been eliminated with the nodes behind it, so there is nothing to
+  // cut.
+  EXPECT_EQ(nodes.boundary_edges, BoundaryEdges::kKeep);
   EXPECT_TRUE(nodes.HoldsNodes(120));
   Decoupler without_bound(Options(SolveMode::kMarginal, 1));
   const Decoupling& all = without_bound.Choose(strip.graph, Columns(0, 2));
@@ -85,12 +86,12 @@ TEST(Decoupler, OfMarginalEliminatesWithinItsReach) {
 TEST(Decoupling, BecomesAProblemOverTheGraph) {
   Decoupling nodes;
   nodes.moved.Add(2);
-  nodes.seam_edges = SeamEdges::kCut;
+  nodes.boundary_edges = BoundaryEdges::kCut;
   ProblemConfig config = nodes.LevelOne(4, /*camera_variable=*/true);
   EXPECT_EQ(config.variable_nodes, (std::vector<char>{0, 0, 1, 0}));
   EXPECT_TRUE(config.eliminated_nodes.empty());
   EXPECT_TRUE(config.camera_variable);
-  EXPECT_EQ(config.seam_edges, SeamEdges::kCut);
+  EXPECT_EQ(config.boundary_edges, BoundaryEdges::kCut);
   nodes.eliminated.Add(0);
   config = nodes.LevelOne(4, /*camera_variable=*/false);
   EXPECT_EQ(config.eliminated_nodes, (std::vector<char>{1, 0, 0, 0}));

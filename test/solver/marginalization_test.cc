@@ -33,7 +33,7 @@ ProblemConfig Columns(int first, int last) {
 }
 
 // The linearised energy of the residuals that touch the nodes to eliminate, over these nodes and
-// then the seam: cost + g^T d + d^T H d / 2.
+// then the boundary: cost + g^T d + d^T H d / 2.
 struct DenseModel {
   double cost = 0.0;
   Eigen::VectorXd g;
@@ -46,7 +46,7 @@ struct DenseModel {
              DeformationState state) {
     const BuiltProblem built = builder.Build(config, &state);
     ceres::Problem::EvaluateOptions options;
-    for (const auto* list : {&nodes.eliminated_nodes(), &nodes.seam_nodes()}) {
+    for (const auto* list : {&nodes.eliminated_nodes(), &nodes.boundary_nodes()}) {
       for (const int node : *list) {
         built.problem->SetParameterBlockVariable(state.node(node));
         options.parameter_blocks.push_back(state.node(node));
@@ -62,16 +62,16 @@ struct DenseModel {
     for (int i = 0; i < num_eliminated; ++i) H(i, i) *= 1.0 + damping;
   }
 
-  // Returns the minimum over the eliminated unknowns for a step of the seam.
-  Eigen::VectorXd BestStep(const Eigen::VectorXd& seam_step) const {
+  // Returns the minimum over the eliminated unknowns for a step of the boundary.
+  Eigen::VectorXd BestStep(const Eigen::VectorXd& boundary_step) const {
     const Eigen::Index n = num_eliminated;
     return -H.topLeftCorner(n, n).llt().solve(
-        Eigen::VectorXd(g.head(n) + H.topRightCorner(n, seam_step.size()) * seam_step));
+        Eigen::VectorXd(g.head(n) + H.topRightCorner(n, boundary_step.size()) * boundary_step));
   }
 
-  double Value(const Eigen::VectorXd& eliminated_step, const Eigen::VectorXd& seam_step) const {
+  double Value(const Eigen::VectorXd& eliminated_step, const Eigen::VectorXd& boundary_step) const {
     Eigen::VectorXd d(g.size());
-    d << eliminated_step, seam_step;
+    d << eliminated_step, boundary_step;
     return cost + g.dot(d) + 0.5 * d.dot(H * d);
   }
 
@@ -107,7 +107,7 @@ void Eliminate(const ProblemBuilder& builder,
 
 // Compares the priors of both objects, relative to their largest entries.
 void ExpectSamePrior(const Marginalization& a, const Marginalization& b, double tolerance) {
-  ASSERT_EQ(a.seam_nodes(), b.seam_nodes());
+  ASSERT_EQ(a.boundary_nodes(), b.boundary_nodes());
   const Quadratic& one = a.prior().quadratic();
   const Quadratic& other = b.prior().quadratic();
   EXPECT_EQ(one.origin, other.origin);
@@ -126,16 +126,16 @@ TEST(Marginalization, PriorIsTheLeastLinearisedEnergyAndBackSubstitutionWhereItI
       Marginalization marginalization;
       Eliminate(strip.builder, Columns(2, 6), state, damping, &marginalization);
       ASSERT_EQ(marginalization.eliminated_nodes().size(), 12u);
-      ASSERT_EQ(marginalization.seam_nodes(), (std::vector<int>{3, 4, 5}));
+      ASSERT_EQ(marginalization.boundary_nodes(), (std::vector<int>{3, 4, 5}));
       const DenseModel model(strip.builder, Columns(2, 6), marginalization, damping, state);
       EXPECT_NEAR(marginalization.energy(), model.cost, 1e-12 * model.cost);
       for (int seed = 0; seed < 3; ++seed) {
         std::srand(seed);
-        const Eigen::VectorXd seam_step = 0.1 * Eigen::VectorXd::Random(36);
-        const Eigen::VectorXd step = model.BestStep(seam_step);
+        const Eigen::VectorXd boundary_step = 0.1 * Eigen::VectorXd::Random(36);
+        const Eigen::VectorXd step = model.BestStep(boundary_step);
         DeformationState moved = state;
-        MoveNodes(marginalization.seam_nodes(), seam_step, &moved);
-        const double expected = model.Value(step, seam_step);
+        MoveNodes(marginalization.boundary_nodes(), boundary_step, &moved);
+        const double expected = model.Value(step, boundary_step);
         EXPECT_NEAR(marginalization.PriorValue(moved), expected, 1e-10 * expected);
         marginalization.BackSubstitute(&moved);
         const Eigen::VectorXd found = Nodes(marginalization.eliminated_nodes(), moved) -
@@ -146,7 +146,7 @@ TEST(Marginalization, PriorIsTheLeastLinearisedEnergyAndBackSubstitutionWhereItI
   }
 }
 
-TEST(Marginalization, ARigidMotionOfTheSeamCostsNothing) {
+TEST(Marginalization, ARigidMotionOfTheBoundaryCostsNothing) {
   StripBuilder strip(OneColumnSeen());
   const DeformationState rest(18);
   Marginalization marginalization;
@@ -161,7 +161,7 @@ TEST(Marginalization, ARigidMotionOfTheSeamCostsNothing) {
     turn.rotation = Eigen::AngleAxisd(kAngle, Eigen::Vector3d::Unit(axis));
     turn.translation = kAngle * Eigen::Vector3d::Unit(axis);
     const Eigen::VectorXd motion =
-        (Nodes(marginalization.seam_nodes(), RigidState(strip.problem.graph, turn)) -
+        (Nodes(marginalization.boundary_nodes(), RigidState(strip.problem.graph, turn)) -
          prior.origin) /
         kAngle;
     EXPECT_LT((prior.hessian * motion).norm(), 1e-5 * prior.hessian.norm());
@@ -189,7 +189,7 @@ TEST(Marginalization, InTwoStagesIsTheSameAsInOne) {
 
   DeformationState expected = state;
   std::srand(1);
-  MoveNodes(at_once.seam_nodes(), 0.1 * Eigen::VectorXd::Random(36), &expected);
+  MoveNodes(at_once.boundary_nodes(), 0.1 * Eigen::VectorXd::Random(36), &expected);
   DeformationState found = expected;
   at_once.BackSubstitute(&expected);
   second.BackSubstitute(&found);
@@ -265,15 +265,15 @@ TEST(Marginalization, IsTheSameBitsOnAnyNumberOfThreads) {
   }
 }
 
-// Without a seam nothing holds the nodes: a rigid motion costs nothing.
-TEST(Marginalization, OfEveryNodeNeedsDampingAndHasNoSeam) {
+// Without a boundary nothing holds the nodes: a rigid motion costs nothing.
+TEST(Marginalization, OfEveryNodeNeedsDampingAndHasNoBoundary) {
   StripBuilder strip(OneColumnSeen());
   strip.builder.SetWeight(strip.data, 0.0);
   strip.builder.SetWeight(strip.rotation, 0.0);
   const DeformationState state = RandomState(strip.problem, 0.1, 7);
   Marginalization marginalization;
   ASSERT_TRUE(marginalization.SetProblem(strip.builder, Columns(0, 6)).ok());
-  EXPECT_TRUE(marginalization.seam_nodes().empty());
+  EXPECT_TRUE(marginalization.boundary_nodes().empty());
   ASSERT_TRUE(marginalization.Linearize(state, 1));
   ASSERT_TRUE(marginalization.Eliminate(1e-4));
   EXPECT_EQ(marginalization.prior().size(), 0);

@@ -51,8 +51,8 @@ TEST(NormalEquations, AgreeWithCeres) {
       const std::vector<char> relevant = builder->PointRelevantNodes();
       for (const ProblemConfig& config :
            {FullConfig(state.num_nodes(), has_camera),
-            LevelOneConfig(problem.graph, relevant, has_camera, SeamEdges::kKeep, 1),
-            LevelOneConfig(problem.graph, relevant, has_camera, SeamEdges::kCut, 0),
+            LevelOneConfig(problem.graph, relevant, has_camera, BoundaryEdges::kKeep, 1),
+            LevelOneConfig(problem.graph, relevant, has_camera, BoundaryEdges::kCut, 0),
             LevelTwoConfig(relevant)}) {
         ExpectClose(AssembleInBlocks(*builder, config, state, 1),
                     AssembleWithCeres(*builder, config, &state));
@@ -180,7 +180,7 @@ TEST(NormalEquations, AgreeWithCeresWhereThereAreManyPointsOfMixedBindings) {
     for (const ProblemConfig& config :
          {FullConfig(state.num_nodes(), has_camera),
           LevelOneConfig(
-              problem.graph, builder->PointRelevantNodes(), has_camera, SeamEdges::kKeep, 1)}) {
+              problem.graph, builder->PointRelevantNodes(), has_camera, BoundaryEdges::kKeep, 1)}) {
       ExpectClose(AssembleInBlocks(*builder, config, state, 2),
                   AssembleWithCeres(*builder, config, &state));
     }

@@ -187,14 +187,14 @@ INSTANTIATE_TEST_SUITE_P(
              (std::get<1>(info.param) == LinearSolver::kCeres ? "Ceres" : "Block");
     });
 
-// The seam would tear if Level II had no time left.
+// The boundary would tear if Level II had no time left.
 TEST(TwoLevelStrategy, LetsPointIrrelevantNodesFollowWhenLevelOneRunsOutOfTime) {
   for (const LinearSolver linear_solver : {LinearSolver::kCeres, LinearSolver::kBlock}) {
     const StripBuilder strip(FarFromTargets());
     StrategyOptions strategy;
     strategy.mode = SolveMode::kTwoLevel;
     strategy.rings = 0;
-    strategy.seam_edges = SeamEdges::kCut;
+    strategy.boundary_edges = BoundaryEdges::kCut;
     strategy.linear_solver = linear_solver;
     SolverOptions options;
     options.function_tolerance = 0.0;

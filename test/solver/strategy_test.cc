@@ -21,11 +21,11 @@ constexpr SolveMode kModes[] = {SolveMode::kBatch, SolveMode::kTwoLevel, SolveMo
 std::unique_ptr<Strategy> Make(SolveMode mode,
                                LinearSolver linear_solver,
                                int rings = 0,
-                               SeamEdges seam_edges = SeamEdges::kKeep) {
+                               BoundaryEdges boundary_edges = BoundaryEdges::kKeep) {
   StrategyOptions options;
   options.mode = mode;
   options.rings = rings;
-  options.seam_edges = seam_edges;
+  options.boundary_edges = boundary_edges;
   options.linear_solver = linear_solver;
   return MakeStrategy(options);
 }
@@ -177,17 +177,17 @@ TEST(Strategy, LinearSolversFindTheSameMinimum) {
 
 // Level II on its own: every PI node is at its optimum while the PR nodes are held.
 TEST(TwoLevelStrategy, LeavesTheSeenPartAsLevelOneHadIt) {
-  for (const SeamEdges seam_edges : {SeamEdges::kKeep, SeamEdges::kCut}) {
+  for (const BoundaryEdges boundary_edges : {BoundaryEdges::kKeep, BoundaryEdges::kCut}) {
     const StripBuilder strip(HalfSeen(true, 4));
     SolverOptions solver;
     solver.max_iterations = 200;
     solver.function_tolerance = 1e-15;
     DeformationState state(18);
-    Make(SolveMode::kTwoLevel, LinearSolver::kCeres, 0, seam_edges)
+    Make(SolveMode::kTwoLevel, LinearSolver::kCeres, 0, boundary_edges)
         ->Solve(strip.builder, solver, &state);
     const BuiltProblem built = strip.builder.Build(
         LevelOneConfig(
-            strip.problem.graph, strip.builder.PointRelevantNodes(), true, seam_edges, 0),
+            strip.problem.graph, strip.builder.PointRelevantNodes(), true, boundary_edges, 0),
         &state);
     std::vector<double> gradient;
     built.problem->Evaluate({}, nullptr, nullptr, &gradient, nullptr);
@@ -195,7 +195,7 @@ TEST(TwoLevelStrategy, LeavesTheSeenPartAsLevelOneHadIt) {
     for (const double g : gradient) largest = std::max(largest, std::abs(g));
     // Cut: Level I does not depend on PI nodes, so its minimum is unchanged. Keep: the PI nodes
     // have moved.
-    if (seam_edges == SeamEdges::kCut) {
+    if (boundary_edges == BoundaryEdges::kCut) {
       EXPECT_LT(largest, 1e-3);
     } else {
       EXPECT_GT(largest, 1e-3);

@@ -1,6 +1,6 @@
 // Tests residuals on many nodes at once, to which the normal equations give dual unknowns.
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/residual_collection.h>

@@ -1,8 +1,8 @@
 // An energy of your own: a floor that no point may sink through, written as a functor on a warped
 // point. A sheet is held at one edge and pulled down in the middle; the free half goes on down,
 // unless there is a floor.
-#include <ceres_ed/energy/builtin_energies.h>
 #include <ceres_ed/energy/custom_energy.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/testing/energy_laws.h>
 

@@ -1,5 +1,5 @@
 // Batch against two-level: a heart of which a camera sees less than half, fitted both ways.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/registration/fit.h>

@@ -1,5 +1,5 @@
 // Follows the camera and the tissue of a depth sequence, and writes the map: the core of ed_slam.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/pipeline/slam/map_export.h>

@@ -1,5 +1,5 @@
 // Drags one point of a square of four nodes to a landmark, and checks that it arrives.
-#include <ceres_ed/energy/builtin_energies.h>
+#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/version.h>

@@ -30,7 +30,6 @@
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/util/named_values.h>
-#include <ceres_ed/util/options_fwd.h>
 #include <ceres_ed/util/status.h>
 
 #include <array>

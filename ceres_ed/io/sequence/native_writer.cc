@@ -150,9 +150,9 @@ Status NativeSequenceWriter::WriteTruth(const std::vector<Eigen::Vector3d>& poin
   return truth_->Add(points);
 }
 
-Status NativeSequenceWriter::Finish() {
+Status NativeSequenceWriter::Close() {
   if (truth_ != nullptr) {
-    if (Status status = truth_->Finish(); !status.ok()) return status;
+    if (Status status = truth_->Close(); !status.ok()) return status;
   }
   return WritePosesFile((fs::path(directory_) / "poses.txt").string(), poses_);
 }

@@ -42,7 +42,7 @@ struct NativeFrame {
 };
 
 // Writes frames 000000, 000001 and so on. camera.txt and each image are complete files as soon as
-// they are written. Poses and ground truth are complete when Finish() returns; without Finish()
+// they are written. Poses and ground truth are complete when Close() returns; without Close()
 // they are not written. The memory that is needed grows by one pose for each frame only.
 class NativeSequenceWriter {
  public:
@@ -57,7 +57,7 @@ class NativeSequenceWriter {
 
   // Writes poses.txt, gt_mesh_000000.ply and gt_vertices.f32 for all frames so far. Call it at most
   // once.
-  Status Finish();
+  Status Close();
 
   int num_frames() const { return static_cast<int>(poses_.size()); }
 

@@ -143,7 +143,7 @@ Status SceneTruthWriter::Add(const std::vector<Eigen::Vector3d>& points) {
              : Status::Error(folder_ + "/" + kTruthVerticesName + ": can't be written, disk full?");
 }
 
-Status SceneTruthWriter::Finish() {
+Status SceneTruthWriter::Close() {
   CloudWriteOptions options;
   options.comments = {"true surface at frame 0, metres, world frame"};
   Status status = WriteCloud((fs::path(folder_) / kTruthMeshName).string(), first_, options);

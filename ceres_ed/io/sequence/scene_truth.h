@@ -49,7 +49,7 @@ bool HoldsSceneTruth(const std::string& folder);
 StatusOr<SceneTruth> ReadSceneTruth(const std::string& folder,
                                     const std::map<int, CameraPose>& world_from_camera);
 
-// Writes the two files frame by frame. They are complete when Finish() returns; without Finish()
+// Writes the two files frame by frame. They are complete when Close() returns; without Close()
 // they are not written.
 class SceneTruthWriter {
  public:
@@ -61,7 +61,7 @@ class SceneTruthWriter {
   Status Add(const std::vector<Eigen::Vector3d>& points);
 
   // Completes the files. Call it at most once, after at least one frame.
-  Status Finish();
+  Status Close();
 
  private:
   SceneTruthWriter() = default;

@@ -44,8 +44,8 @@ Status LoadLandmarks(const std::string& path, FitFiles* files) {
   if (!landmarks.ok()) return landmarks.status();
   const std::vector<int> points = PointsOfVertices(*files);
   for (const Landmark& landmark : *landmarks) {
-    const int point = points[landmark.index];
-    if (point < 0) return NotFinite(path, landmark.index, files->source.path);
+    const int point = points[landmark.point];
+    if (point < 0) return NotFinite(path, landmark.point, files->source.path);
     files->input.landmarks.push_back({point, landmark.position});
   }
   return Status::Ok();

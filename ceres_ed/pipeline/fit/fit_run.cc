@@ -58,7 +58,7 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
 LandmarkErrors MeasureLandmarks(const FitRun& run) {
   LandmarkErrors errors;
   double sum = 0.0;
-  for (const PointConstraint& landmark : run.files->input.landmarks) {
+  for (const Landmark& landmark : run.files->input.landmarks) {
     if (run.result->points.empty()) break;
     const double error = (run.result->points[landmark.point] - landmark.position).norm();
     sum += error * error;

@@ -47,7 +47,7 @@ Status WriteFrames(const SyntheticSequence& sequence,
     std::snprintf(note, sizeof(note), "frames, %.1f a second", (k + 1) / clock.Seconds());
     observer->OnProgress(k + 1, sequence.num_frames(), note);
   }
-  return writer->Finish();
+  return writer->Close();
 }
 
 }  // namespace

@@ -57,7 +57,7 @@ Outcome SlamSession::Start(std::vector<NamedPoint> points) {
   return Outcome::Done();
 }
 
-Outcome SlamSession::Run() { return Finish(TakeFrames()); }
+Outcome SlamSession::Run() { return End(TakeFrames()); }
 
 Outcome SlamSession::TakeFrames() {
   const int total = sequence_.num_frames();
@@ -160,7 +160,7 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   return status.ok() ? Outcome::Done() : Outcome::BadInput(status);
 }
 
-Outcome SlamSession::Finish(Outcome outcome) {
+Outcome SlamSession::End(Outcome outcome) {
   const bool tracked = slam_->unit() > 0.0;
   if (outcome.done() && !tracked) {
     outcome = Outcome::NoResult(
@@ -228,7 +228,7 @@ Status SlamSession::WriteCheckpoint() {
   ExchangeProgress(&writer);
   output_->Save(&writer);
   // Last: what it tells of is there.
-  return WriteFileAtomically(output_->Path(kCheckpointName), writer.Finish());
+  return WriteFileAtomically(output_->Path(kCheckpointName), writer.TakeBytes());
 }
 
 Outcome SlamSession::Resume(const std::string& path) {

@@ -57,7 +57,7 @@ class SlamSession {
   void CheckDepth(const DepthImage& depth);
   Outcome Track(const DepthFrame& frame, int index, FrameRecord* record);
   // Writes everything as it is and returns how the run ended.
-  Outcome Finish(Outcome outcome);
+  Outcome End(Outcome outcome);
   SlamRun MakeRun() const;
   Status WriteResults(const SlamRun& run) const;
 

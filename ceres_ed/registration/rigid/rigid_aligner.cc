@@ -25,7 +25,7 @@ constexpr double kLeastExplained = 0.1;
 // Distances below this fraction of the score's width are rounding errors.
 constexpr double kNegligible = 1e-4;
 
-// The angle between normals at which a point counts half as missed.
+// The angle between normals at which a point counts half as unmatched.
 constexpr double kAngleWidth = 30.0 * M_PI / 180.0;
 // The weight, in the total, of the surface that is explained worse.
 constexpr double kWorseShare = 0.2;
@@ -77,8 +77,8 @@ RigidSide MakeRigidSide(const CoarseSurface& surface, int samples) {
 }
 
 double RigidScore::Total() const {
-  return (1.0 - kWorseShare) * std::min(source_missed, target_missed) +
-         kWorseShare * std::max(source_missed, target_missed);
+  return (1.0 - kWorseShare) * std::min(source_unmatched, target_unmatched) +
+         kWorseShare * std::max(source_unmatched, target_unmatched);
 }
 
 RigidAligner::RigidAligner(RigidSide source, RigidSide target, const RigidAlignerOptions& options)
@@ -137,7 +137,7 @@ RigidScore RigidAligner::Score(const Similarity& pose) const {
   const std::vector<PlanePair> pairs = Pairs(pose, &nearest);
   const std::size_t num_forward = source_.samples.size();
   const double scale = 1.0 / (options_.width * options_.width);
-  double missed[2] = {0.0, 0.0};
+  double unmatched[2] = {0.0, 0.0};
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const PlanePair& pair = pairs[i];
     double share = 1.0;
@@ -151,12 +151,12 @@ RigidScore RigidAligner::Score(const Similarity& pose) const {
       const double q = (off * off + along * along) * scale + angle * angle;
       share = q / (1.0 + q);
     }
-    missed[i < num_forward ? 0 : 1] += share;
+    unmatched[i < num_forward ? 0 : 1] += share;
   }
   RigidScore score;
-  if (num_forward > 0) score.source_missed = missed[0] / static_cast<double>(num_forward);
+  if (num_forward > 0) score.source_unmatched = unmatched[0] / static_cast<double>(num_forward);
   if (pairs.size() > num_forward) {
-    score.target_missed = missed[1] / static_cast<double>(pairs.size() - num_forward);
+    score.target_unmatched = unmatched[1] / static_cast<double>(pairs.size() - num_forward);
   }
   return score;
 }

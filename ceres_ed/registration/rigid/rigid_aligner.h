@@ -36,7 +36,7 @@ struct RigidAlignerOptions {
   bool oriented = true;
   // The largest angle between the normals of a pair, in (0, 180] degrees; default 60.
   double max_angle_deg = 60.0;
-  // The distance at which a point counts half as missed, in the unit of the target, > 0.
+  // The distance at which a point counts half as unmatched, in the unit of the target, > 0.
   double width = 1.0;
   // The spacing of the samples of a surface, in the unit of the target, >= 0: a distance along the
   // surface counts only as far as it exceeds this value.
@@ -44,13 +44,15 @@ struct RigidAlignerOptions {
   int num_threads = 1;
 };
 
-// How much of each surface is not explained ("missed"), each in [0, 1].
+// How much of each surface is not explained ("unmatched"), each in [0, 1].
 struct RigidScore {
-  double source_missed = 1.0;
-  double target_missed = 1.0;
+  double source_unmatched = 1.0;
+  double target_unmatched = 1.0;
 
   // Returns the value of the surface that is explained better.
-  double Better() const { return source_missed < target_missed ? source_missed : target_missed; }
+  double Better() const {
+    return source_unmatched < target_unmatched ? source_unmatched : target_unmatched;
+  }
   // Returns a mean in which the surface that is explained better has most of the weight: with a
   // partial target and a whole source, most of the source cannot be explained.
   double Total() const;

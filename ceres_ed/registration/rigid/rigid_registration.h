@@ -14,7 +14,7 @@ namespace ceres_ed {
 // The result of a rigid alignment.
 struct RigidResult {
   Similarity target_from_source;
-  // How much is missed, in [0, 1]; 0 is a perfect fit. The surface that is explained better has
+  // How much is unmatched, in [0, 1]; 0 is a perfect fit. The surface that is explained better has
   // most of the weight: nearly all of a partial target can be explained, but little of the whole
   // source. This is RigidScore::Total() over the points themselves.
   double score = 1.0;

@@ -20,8 +20,8 @@ constexpr int kSamples = 64;
 // This many samples decide whether the remaining samples are evaluated.
 constexpr int kFirstSamples = 16;
 // Lengths as fractions of the smaller surface's diagonal: the spacing of the places that are tried;
-// the distance at which a point counts half as missed; the edge of a grid cell; the distance beyond
-// which a point is missed.
+// the distance at which a point counts half as unmatched; the edge of a grid cell; the distance
+// beyond which a point is unmatched.
 constexpr double kPlaceSpacing = 0.06;
 constexpr double kWidth = 0.05;
 constexpr double kCell = 0.035;
@@ -85,7 +85,7 @@ Eigen::Matrix3d Frame(const Eigen::Vector3d& normal) {
 struct Hypothesis {
   Eigen::Matrix3d rotation;
   Eigen::Vector3d translation;
-  double missed = 1.0;
+  double unmatched = 1.0;
 };
 
 struct OrientedPoint {
@@ -109,9 +109,9 @@ class Searcher {
   void TryPlace(const OrientedPoint& anchor,
                 const OrientedPoint& place,
                 std::vector<Hypothesis>* out) const;
-  // Returns the mean of the samples' missed shares, or at least 1 if the first samples miss too
+  // Returns the mean of the samples' unmatched shares, or at least 1 if the first samples miss too
   // much.
-  double Missed(const Hypothesis& hypothesis) const;
+  double UnmatchedShare(const Hypothesis& hypothesis) const;
   std::vector<Hypothesis> Distinct(std::vector<Hypothesis> hypotheses, int max_count) const;
 
   const CoarseSurface& base_;
@@ -162,7 +162,7 @@ Searcher::Searcher(const CoarseSurface& query,
   }
 }
 
-double Searcher::Missed(const Hypothesis& hypothesis) const {
+double Searcher::UnmatchedShare(const Hypothesis& hypothesis) const {
   constexpr double kTooMuch = 0.75;
   const double per_width = 1.0 / (kWidth * diagonal_);
   const double max_squared = std::pow(kReach / kWidth, 2);
@@ -198,8 +198,8 @@ void Searcher::TryPlace(const OrientedPoint& anchor,
     Hypothesis hypothesis;
     hypothesis.rotation = to * Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitX()) * from;
     hypothesis.translation = place.point - hypothesis.rotation * anchor.point;
-    hypothesis.missed = Missed(hypothesis);
-    if (hypothesis.missed < 1.0) out->push_back(hypothesis);
+    hypothesis.unmatched = UnmatchedShare(hypothesis);
+    if (hypothesis.unmatched < 1.0) out->push_back(hypothesis);
   }
 }
 
@@ -219,9 +219,10 @@ std::vector<Hypothesis> Searcher::Run(int max_count,
 
 std::vector<Hypothesis> Searcher::Distinct(std::vector<Hypothesis> hypotheses,
                                            int max_count) const {
-  std::stable_sort(hypotheses.begin(),
-                   hypotheses.end(),
-                   [](const Hypothesis& a, const Hypothesis& b) { return a.missed < b.missed; });
+  std::stable_sort(
+      hypotheses.begin(), hypotheses.end(), [](const Hypothesis& a, const Hypothesis& b) {
+        return a.unmatched < b.unmatched;
+      });
   std::vector<Hypothesis> distinct;
   const double alike = std::pow(kAlike * diagonal_, 2) * static_cast<double>(ends_.size());
   for (const Hypothesis& candidate : hypotheses) {

@@ -35,7 +35,7 @@ LevelReport Levels::SolveHidden(const std::vector<int>& nodes,
   if (!previous.empty()) inputs.context.node_previous = &previous;
   ProblemBuilder builder(window.graph, /*has_camera=*/false);
   terms_.AddTo(inputs, TermLevels::kAll, &builder);
-  const ProblemConfig config = window.Config(/*camera_variable=*/false, SeamEdges::kKeep);
+  const ProblemConfig config = window.Config(/*camera_variable=*/false, BoundaryEdges::kKeep);
   const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
     return solver_->SolveLevelTwo(builder, config, steps, &window.state, summary);
   };

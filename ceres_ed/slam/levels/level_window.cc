@@ -6,7 +6,7 @@
 
 namespace ceres_ed {
 
-ProblemConfig LevelWindow::Config(bool camera_variable, SeamEdges seam_edges) const {
+ProblemConfig LevelWindow::Config(bool camera_variable, BoundaryEdges boundary_edges) const {
   ProblemConfig config;
   config.variable_nodes.assign(nodes.size(), 0);
   std::fill_n(config.variable_nodes.begin() + num_eliminated, num_variable - num_eliminated, 1);
@@ -15,7 +15,7 @@ ProblemConfig LevelWindow::Config(bool camera_variable, SeamEdges seam_edges) co
     std::fill_n(config.eliminated_nodes.begin(), num_eliminated, 1);
   }
   config.camera_variable = camera_variable;
-  config.seam_edges = seam_edges;
+  config.boundary_edges = boundary_edges;
   return config;
 }
 

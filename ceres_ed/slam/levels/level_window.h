@@ -29,7 +29,7 @@ struct LevelWindow {
   DeformationState state;
 
   // Returns the level as a problem over the window.
-  ProblemConfig Config(bool camera_variable, SeamEdges seam_edges) const;
+  ProblemConfig Config(bool camera_variable, BoundaryEdges boundary_edges) const;
 };
 
 // Builds windows, and keeps its index of nodes from one window to the next.

@@ -21,7 +21,8 @@ std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
   planes.levels = TermLevels::kLevelOne;
   planes.loss_width = LossWidth::kCorrespondences;
   TermRule features = planes;
-  features.loss_width = LossWidth::kLandmarks;
+  features.loss_width = LossWidth::kFeatures;
+  features.pairs = PairSource::kFeatures;
   TermRule camera;
   camera.levels = TermLevels::kLevelOne;
   const double feature_weight = options.plane_weight * options.feature_weight;
@@ -32,7 +33,7 @@ std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
           {"regularization", {"regularization", options.regularization_weight, {}, {}}, {}},
           {"node_prior", {"node_prior", options.node_prior_weight, {}, {}}, {}},
           {"point_to_plane", {"point_to_plane", options.plane_weight, tukey, {}}, planes},
-          {"landmark", {"landmark", feature_weight, tukey, {}}, features},
+          {"feature", {"landmark", feature_weight, tukey, {}}, features},
           {"pose_prior", {"pose_prior", 1.0, {}, spreads}, camera}};
 }
 
@@ -50,8 +51,8 @@ TermSpec UsersTerm(const EnergySpec& energy, const EnergyRegistry& registry) {
 }
 
 // Limits with which the last problem of a frame is solved until it converges.
-constexpr int kFinishSteps = 20;
-constexpr double kFinishTolerance = 1e-5;
+constexpr int kConvergenceSteps = 20;
+constexpr double kConvergenceTolerance = 1e-5;
 
 // Returns the motion of a node from `before`: |dt| + |dA|.
 double MotionOf(const double* before, const double* after) {
@@ -112,12 +113,12 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   return SolveLevelOne(observations, options_.solver, priors, map);
 }
 
-LevelReport Levels::FinishLevelOne(const FrameObservations& observations,
-                                   NodePriorSource* priors,
-                                   DeformableMap* map) {
+LevelReport Levels::ConvergeLevelOne(const FrameObservations& observations,
+                                     NodePriorSource* priors,
+                                     DeformableMap* map) {
   SolverOptions options = options_.solver;
-  options.max_iterations = kFinishSteps;
-  options.function_tolerance = kFinishTolerance;
+  options.max_iterations = kConvergenceSteps;
+  options.function_tolerance = kConvergenceTolerance;
   return SolveLevelOne(observations, options, priors, map);
 }
 
@@ -142,12 +143,13 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   // The weight of the data is per PR node and does not depend on the density of points.
   inputs.nodes_per_observation =
       point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
+  inputs.features = &seen.features();
   inputs.correspondence_width = observations.plane_width;
-  inputs.landmark_width = observations.feature_width;
+  inputs.feature_width = observations.feature_width;
   ProblemBuilder builder(window.graph, /*has_camera=*/true);
   terms_.AddTo(inputs, TermLevels::kLevelOne, &builder);
   const bool camera = options_.camera_variable;
-  const ProblemConfig config = window.Config(camera, nodes.seam_edges);
+  const ProblemConfig config = window.Config(camera, nodes.boundary_edges);
   const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
     return solver_->SolveLevelOne(builder, config, steps, &window.state, summary);
   };

@@ -58,9 +58,9 @@ class Levels {
                             DeformableMap* map);
 
   // Solves the same problem again until it has converged.
-  LevelReport FinishLevelOne(const FrameObservations& observations,
-                             NodePriorSource* priors,
-                             DeformableMap* map);
+  LevelReport ConvergeLevelOne(const FrameObservations& observations,
+                               NodePriorSource* priors,
+                               DeformableMap* map);
 
   // Solves Level II (Eq. 15), which moves all PI nodes, or those whose surroundings have changed.
   LevelReport SolveLevelTwo(NodePriorSource* priors, DeformableMap* map);

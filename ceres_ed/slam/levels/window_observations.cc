@@ -21,7 +21,6 @@ EnergyContext WindowObservations::Context(const LevelWindow& window) const {
   context.skinning = &skinning_;
   context.correspondences = &planes_;
   context.match_details = &details_;
-  context.landmarks = &features_;
   context.node_prior = &node_prior_;
   return context;
 }

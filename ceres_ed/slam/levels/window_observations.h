@@ -26,6 +26,8 @@ class WindowObservations {
   // Returns a context that refers to this object, which must outlive it.
   EnergyContext Context(const LevelWindow& window) const;
 
+  // The corners that are followed.
+  const std::vector<Correspondence>& features() const { return features_; }
   int num_planes() const { return static_cast<int>(planes_.size()); }
 
  private:

@@ -4,10 +4,10 @@
 
 #include <ceres_ed/graph/deformation_graph.h>
 #include <ceres_ed/graph/deformation_state.h>
-#include <ceres_ed/slam/map/map_memory.h>
 #include <ceres_ed/slam/map/map_points.h>
 #include <ceres_ed/slam/map/node_index.h>
 #include <ceres_ed/slam/map/view_volume.h>
+#include <ceres_ed/slam/slam_types.h>
 
 #include <deque>
 #include <vector>

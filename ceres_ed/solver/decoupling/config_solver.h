@@ -16,7 +16,7 @@ namespace ceres_ed {
 //
 // Without eliminated nodes it is a LevelSolver. With them, each iteration eliminates these nodes at
 // the present state (Eq. 20), takes a step over the variable nodes with the resulting prior on the
-// seam, and computes the eliminated nodes by back-substitution (Eq. 21). Together this is a
+// boundary, and computes the eliminated nodes by back-substitution (Eq. 21). Together this is a
 // Gauss-Newton step over all of these nodes, so that the minimum is the one of a solve that moves
 // all of them.
 //

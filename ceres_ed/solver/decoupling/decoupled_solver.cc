@@ -19,7 +19,7 @@ NodeSet NodesOf(const std::vector<char>& mask) {
 }
 
 // Returns the options of Level II. If Level I was stopped early, the PI nodes still follow by a few
-// steps, whatever the time limit or the caller says, because a torn seam would not be a usable
+// steps, whatever the time limit or the caller says, because a torn boundary would not be a usable
 // state.
 SolverOptions LevelTwoOptions(const SolverOptions& options,
                               const SolveSummary& level_one,

@@ -23,7 +23,7 @@ ProblemConfig Decoupling::LevelOne(int num_nodes, bool camera_variable) const {
   ProblemConfig config;
   config.variable_nodes = MaskOf(moved, num_nodes);
   config.camera_variable = camera_variable;
-  config.seam_edges = seam_edges;
+  config.boundary_edges = boundary_edges;
   if (!eliminated.empty()) config.eliminated_nodes = MaskOf(eliminated, num_nodes);
   return config;
 }
@@ -31,7 +31,7 @@ ProblemConfig Decoupling::LevelOne(int num_nodes, bool camera_variable) const {
 void Decoupling::Clear() {
   moved.Clear();
   eliminated.Clear();
-  seam_edges = SeamEdges::kKeep;
+  boundary_edges = BoundaryEdges::kKeep;
 }
 
 const Decoupling& Decoupler::Choose(const DeformationGraph& graph, const NodeSet& point_relevant) {

@@ -18,7 +18,7 @@ struct Decoupling {
   // back-substitution (Eq. 21).
   NodeSet eliminated;
   // How priors between moved and held nodes are treated in Level I.
-  SeamEdges seam_edges = SeamEdges::kKeep;
+  BoundaryEdges boundary_edges = BoundaryEdges::kKeep;
 
   // Returns whether some of `num_nodes` nodes are held.
   bool HoldsNodes(int num_nodes) const { return moved.size() + eliminated.size() < num_nodes; }

@@ -116,7 +116,7 @@ bool MarginalSolve::IsDone(SolveSummary* summary) const {
 // residuals. Returns false if it failed.
 bool MarginalSolve::SolveLevelOne(DeformationState* candidate, SolveSummary* summary) {
   config_.extra_residuals.clear();
-  if (!marginalization_->seam_nodes().empty()) {
+  if (!marginalization_->boundary_nodes().empty()) {
     config_.extra_residuals.push_back(marginalization_->PriorResidual());
   }
   SolverOptions options = options_;

@@ -80,16 +80,16 @@ Status Marginalization::SetProblem(const ProblemBuilder& builder, const ProblemC
   equations_.reset();
   config_ = config;
   config_.camera_variable = false;
-  config_.seam_edges = SeamEdges::kKeep;
+  config_.boundary_edges = BoundaryEdges::kKeep;
   const std::vector<SelectedResidual> residuals = builder.Select(config_);
   if (Status status = CheckNoCamera(builder, residuals); !status.ok()) return status;
   const std::vector<int> eliminated = NodesOf(residuals, config_.variable_nodes, true);
-  const std::vector<int> seam = NodesOf(residuals, config_.variable_nodes, false);
-  const bool same_nodes = eliminated == eliminated_ && seam == seam_;
+  const std::vector<int> boundary = NodesOf(residuals, config_.variable_nodes, false);
+  const bool same_nodes = eliminated == eliminated_ && boundary == boundary_;
   eliminated_ = eliminated;
-  seam_ = seam;
+  boundary_ = boundary;
   std::vector<int> nodes = eliminated;
-  nodes.insert(nodes.end(), seam.begin(), seam.end());
+  nodes.insert(nodes.end(), boundary.begin(), boundary.end());
   equations_ = std::make_unique<NormalEquations>(builder, residuals, nodes);
   has_values_ = false;
   std::vector<Weighing> weighings = WeighingsOf(builder, residuals);
@@ -131,7 +131,7 @@ void Marginalization::UpdateStructure() {
   cholesky_.reset();
   structure_ = std::make_unique<BlockStructure>(equations_->BlockSizes(), pairs_);
   if (!eliminated_.empty()) {
-    cholesky_ = std::make_unique<BlockCholesky>(*structure_, static_cast<int>(seam_.size()));
+    cholesky_ = std::make_unique<BlockCholesky>(*structure_, static_cast<int>(boundary_.size()));
   }
   CHECK(equations_->SetStructure(structure_.get()));
 }
@@ -142,7 +142,7 @@ bool Marginalization::Linearize(const DeformationState& state, int num_threads) 
   has_values_ = equations_->Evaluate(state, num_threads, &energy_, &values_, &gradient_);
   origin_.resize(structure_->num_rows());
   AppendNodes(state, eliminated_, 0, &origin_);
-  AppendNodes(state, seam_, num_eliminated_rows(), &origin_);
+  AppendNodes(state, boundary_, num_eliminated_rows(), &origin_);
   return has_values_;
 }
 
@@ -150,11 +150,12 @@ bool Marginalization::Eliminate(double damping) {
   CHECK(has_values_ && cholesky_ != nullptr) << "Linearize comes first, with nodes to eliminate";
   const int num_rows = num_eliminated_rows();
   Eigen::VectorXd diagonal = structure_->Diagonal(values_);
-  // The Schur complement is only semi-definite, because a rigid motion of the seam changes no
+  // The Schur complement is only semi-definite, because a rigid motion of the boundary changes no
   // residual. With this shift on its diagonal it always has a factor, and the rounding error is not
   // larger than in the difference that defines the complement.
-  shift_ =
-      seam_.empty() ? 0.0 : std::max(diagonal.tail(diagonal.size() - num_rows).maxCoeff(), 1e-300);
+  shift_ = boundary_.empty()
+               ? 0.0
+               : std::max(diagonal.tail(diagonal.size() - num_rows).maxCoeff(), 1e-300);
   const double floor = std::max(kMinRelativeDiagonal * diagonal.head(num_rows).mean(), 1e-300);
   diagonal.head(num_rows) = damping * diagonal.head(num_rows).cwiseMax(floor);
   diagonal.tail(diagonal.size() - num_rows).setConstant(shift_);
@@ -164,13 +165,13 @@ bool Marginalization::Eliminate(double damping) {
   ++num_eliminations_;
   is_fresh_ = true;
   factor_origin_ = origin_;
-  seam_factor_ = cholesky_->TrailingFactor();
+  boundary_factor_ = cholesky_->TrailingFactor();
   Quadratic quadratic;
-  quadratic.hessian = UndoFactor(seam_factor_, shift_);
+  quadratic.hessian = UndoFactor(boundary_factor_, shift_);
   quadratic.origin = origin_.tail(origin_.size() - num_rows);
   quadratic.gradient = ReduceGradient(&quadratic.constant);
   if (prior_ == nullptr) {
-    prior_ = std::make_unique<QuadraticCost>(std::vector<int>(seam_.size(), kNodeSize),
+    prior_ = std::make_unique<QuadraticCost>(std::vector<int>(boundary_.size(), kNodeSize),
                                              std::move(quadratic));
   } else {
     prior_->Set(std::move(quadratic));
@@ -183,7 +184,8 @@ bool Marginalization::Eliminate(double damping) {
 Eigen::VectorXd Marginalization::ReduceGradient(double* constant) {
   reduced_gradient_ = cholesky_->SolveLower(gradient_);
   *constant = energy_ - 0.5 * reduced_gradient_.head(num_eliminated_rows()).squaredNorm();
-  return seam_factor_.triangularView<Eigen::Lower>() * reduced_gradient_.tail(seam_factor_.rows());
+  return boundary_factor_.triangularView<Eigen::Lower>() *
+         reduced_gradient_.tail(boundary_factor_.rows());
 }
 
 bool Marginalization::Update(const DeformationState& state, int num_threads) {
@@ -194,12 +196,12 @@ bool Marginalization::Update(const DeformationState& state, int num_threads) {
   energy_ = energy;
   gradient_ = std::move(gradient);
   AppendNodes(state, eliminated_, 0, &origin_);
-  AppendNodes(state, seam_, num_eliminated_rows(), &origin_);
+  AppendNodes(state, boundary_, num_eliminated_rows(), &origin_);
   is_fresh_ = false;
   has_values_ = false;
   double constant = 0.0;
   const Eigen::VectorXd reduced = ReduceGradient(&constant);
-  prior_->SetOrigin(origin_.tail(seam_factor_.rows()), reduced, constant);
+  prior_->SetOrigin(origin_.tail(boundary_factor_.rows()), reduced, constant);
   return true;
 }
 
@@ -228,27 +230,27 @@ double Marginalization::LargestGradient() const {
 ExtraResidual Marginalization::PriorResidual() const {
   ExtraResidual residual;
   residual.cost = prior_.get();
-  for (const int node : seam_) residual.blocks.push_back(BlockRef::Node(node));
+  for (const int node : boundary_) residual.blocks.push_back(BlockRef::Node(node));
   return residual;
 }
 
-Eigen::VectorXd Marginalization::SeamDifference(const DeformationState& state) const {
-  Eigen::VectorXd seam(seam_factor_.rows());
-  AppendNodes(state, seam_, 0, &seam);
-  return seam - origin_.tail(seam.size());
+Eigen::VectorXd Marginalization::BoundaryDifference(const DeformationState& state) const {
+  Eigen::VectorXd boundary(boundary_factor_.rows());
+  AppendNodes(state, boundary_, 0, &boundary);
+  return boundary - origin_.tail(boundary.size());
 }
 
 double Marginalization::PriorValue(const DeformationState& state) const {
-  return prior_->quadratic().Value(SeamDifference(state));
+  return prior_->quadratic().Value(BoundaryDifference(state));
 }
 
-// Eq. 21 through the factor: L^T (x_f, d) = (-y_f, L_ss^T d). The seam's part of the solution is d
-// itself.
+// Eq. 21 through the factor: L^T (x_f, d) = (-y_f, L_ss^T d). The boundary's part of the solution
+// is d itself.
 void Marginalization::BackSubstitute(DeformationState* state) const {
   CHECK(has_factor_) << "Eliminate comes first";
   Eigen::VectorXd rhs = -reduced_gradient_;
-  rhs.tail(seam_factor_.rows()) =
-      seam_factor_.triangularView<Eigen::Lower>().transpose() * SeamDifference(*state);
+  rhs.tail(boundary_factor_.rows()) =
+      boundary_factor_.triangularView<Eigen::Lower>().transpose() * BoundaryDifference(*state);
   const Eigen::VectorXd step = cholesky_->SolveUpper(rhs);
   for (std::size_t i = 0; i < eliminated_.size(); ++i) {
     const Eigen::Index row = static_cast<Eigen::Index>(i) * kNodeSize;

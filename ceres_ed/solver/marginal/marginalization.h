@@ -21,7 +21,7 @@
 namespace ceres_ed {
 
 // Eliminates nodes f from the linearised energy. The residuals that touch these nodes are replaced
-// by their minimum over f. This minimum is a quadratic prior on the seam s, which are the other
+// by their minimum over f. This minimum is a quadratic prior on the boundary s, which are the other
 // nodes of these residuals. With Lambda = J^T J and g = J^T r of these residuals, both corrected
 // for the losses,
 //   prior(x_s) = min over x_f = c + (g_s - Lambda_sf Lambda_ff^-1 g_f)^T d
@@ -29,8 +29,8 @@ namespace ceres_ed {
 // For any x_s, the eliminated nodes follow by back-substitution (Eq. 21):
 //   x_f = x_f0 - Lambda_ff^-1 (g_f + Lambda_fs d)
 //
-// No matrix is formed that has a column for each unknown of the seam: Lambda is factorised with the
-// blocks of the seam last, so that the factor ends with the factor of the prior.
+// No matrix is formed that has a column for each unknown of the boundary: Lambda is factorised with
+// the blocks of the boundary last, so that the factor ends with the factor of the prior.
 //
 // Call SetProblem(), then Linearize(), then Eliminate(); after that the prior and the
 // back-substitution may be used any number of times. Update() moves the linearisation point and
@@ -45,10 +45,10 @@ class Marginalization {
   // following calls. It is an error if a residual couples a node to the camera.
   Status SetProblem(const ProblemBuilder& builder, const ProblemConfig& config);
 
-  // Return the eliminated nodes and the nodes of the seam, in ascending order. Nodes that no
+  // Return the eliminated nodes and the nodes of the boundary, in ascending order. Nodes that no
   // residual touches are left out, because nothing determines them.
   const std::vector<int>& eliminated_nodes() const { return eliminated_; }
-  const std::vector<int>& seam_nodes() const { return seam_; }
+  const std::vector<int>& boundary_nodes() const { return boundary_; }
 
   // Computes Lambda and g at `state`. Returns false if a residual cannot be evaluated. In both
   // cases the previous factor is lost.
@@ -85,15 +85,15 @@ class Marginalization {
   // Returns the largest absolute entry of g_f.
   double LargestGradient() const;
 
-  // Returns the prior on the seam nodes, in their order. Eliminate() and Update() change it; the
-  // object remains the same as long as the seam is the same.
+  // Returns the prior on the boundary nodes, in their order. Eliminate() and Update() change it;
+  // the object remains the same as long as the boundary is the same.
   const QuadraticCost& prior() const { return *prior_; }
   // Returns the prior as a residual for a problem without the eliminated nodes.
   ExtraResidual PriorResidual() const;
   // Returns the value of the prior at a state.
   double PriorValue(const DeformationState& state) const;
 
-  // Moves the eliminated nodes to the minimum of the linearised energy for the seam of `state`.
+  // Moves the eliminated nodes to the minimum of the linearised energy for the boundary of `state`.
   void BackSubstitute(DeformationState* state) const;
 
  private:
@@ -108,14 +108,14 @@ class Marginalization {
   static std::vector<Weighing> WeighingsOf(const ProblemBuilder& builder,
                                            const std::vector<SelectedResidual>& residuals);
   int num_eliminated_rows() const;
-  Eigen::VectorXd SeamDifference(const DeformationState& state) const;
+  Eigen::VectorXd BoundaryDifference(const DeformationState& state) const;
   void UpdateStructure();
   // Computes the gradient and the constant of the prior from energy_ and gradient_.
   Eigen::VectorXd ReduceGradient(double* constant);
 
   ProblemConfig config_;
   std::vector<int> eliminated_;
-  std::vector<int> seam_;
+  std::vector<int> boundary_;
   std::unique_ptr<NormalEquations> equations_;
   std::vector<BlockPair> pairs_;
   std::vector<Weighing> weighings_;
@@ -123,7 +123,7 @@ class Marginalization {
   // The factor also contains the memory in which systems are solved.
   std::unique_ptr<BlockCholesky> cholesky_;
 
-  // The linearisation: eliminated nodes first, then the seam.
+  // The linearisation: eliminated nodes first, then the boundary.
   double energy_ = 0.0;
   std::vector<double> values_;
   Eigen::VectorXd gradient_;
@@ -136,9 +136,9 @@ class Marginalization {
   bool is_fresh_ = false;
   double damping_ = 0.0;
   int num_eliminations_ = 0;
-  // The seam's part of the factor. It is the factor of the prior's Hessian plus `shift_` on its
+  // The boundary's part of the factor. It is the factor of the prior's Hessian plus `shift_` on its
   // diagonal.
-  Eigen::MatrixXd seam_factor_;
+  Eigen::MatrixXd boundary_factor_;
   double shift_ = 0.0;
   // L^-1 g.
   Eigen::VectorXd reduced_gradient_;

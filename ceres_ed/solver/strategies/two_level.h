@@ -13,7 +13,7 @@ inline void ChooseTwoLevel(const DecouplingInputs& inputs, Decoupling* nodes) {
   AddRings(
       *inputs.graph, inputs.options->rings, [](int) { return true; }, &nodes->moved);
   nodes->moved.Sort();
-  nodes->seam_edges = inputs.options->seam_edges;
+  nodes->boundary_edges = inputs.options->boundary_edges;
 }
 
 }  // namespace ceres_ed
