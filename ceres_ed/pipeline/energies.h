@@ -11,21 +11,21 @@
 
 namespace ceres_ed {
 
-// Fills `registry` with the energies of the library and of `plugins` (paths with ";" between them),
-// and tries to make each of `specs`. Anything but done ends the run: a usage where the user names
-// an energy or a parameter that isn't there, or a bad value; a bad input where a plugin can't be
-// loaded or can't make what it has.
+// Fills `registry` with the energies of the library and of `plugins` (paths, separated by ";"), and
+// tries to create each of `specs`. Unless the outcome is done, the run must end. It is a usage
+// error if an energy or a parameter does not exist, or if a value is bad; it is a bad input if a
+// plugin cannot be loaded or cannot create its energy.
 Outcome LoadEnergies(const std::string& plugins,
                      const std::vector<EnergySpec>& specs,
                      EnergyRegistry* registry);
 
-// Returns "plugin './mine.so' was loaded, and none of its energies is used", a sentence for each
-// such plugin.
+// Returns a sentence for each plugin without a used energy, such as "plugin './mine.so' was loaded,
+// and none of its energies is used".
 std::vector<std::string> IdlePluginWarnings(const EnergyRegistry& registry,
                                             const std::vector<EnergySpec>& specs);
 
-// Returns "energy 'volume' has found nothing to add a residual to; it is: ...", a sentence for each
-// of `names`.
+// Returns a sentence for each of `names`, such as "energy 'volume' has found nothing to add a
+// residual to; it is: ...".
 std::vector<std::string> IdleEnergyWarnings(const EnergyRegistry& registry,
                                             const std::vector<std::string>& names);
 

@@ -8,19 +8,19 @@
 
 namespace ceres_ed {
 
-// Exit codes of the programs; scripts rely on them.
+// The exit codes of the programs. Scripts rely on them.
 enum class ExitCode : int {
   kDone = 0,
   kUsage = 1,
-  // An input that can't be read or used, or an output that can't be written.
+  // An input cannot be read or used, or an output cannot be written.
   kBadInput = 2,
-  // The solve gave nothing usable.
+  // There is no usable result.
   kNoResult = 3,
-  // Stopped by a time limit or Ctrl-C; the best result so far is written.
+  // A time limit or Ctrl-C has stopped the run. The best result so far has been written.
   kStoppedEarly = 4,
 };
 
-// The code, and for any other than kDone the sentence that says why.
+// The exit code and, unless it is kDone, a sentence that gives the reason.
 struct Outcome {
   ExitCode code = ExitCode::kDone;
   std::string message;

@@ -16,7 +16,7 @@ Status PrepareOutput(const std::string& path) {
     return Status::Error(path + ": the folder " + folder.string() +
                          " cannot be made: " + error.message());
   }
-  // Made and thrown away: what permissions and mounts allow is for the system to say.
+  // Only an attempt shows whether permissions and mounts allow the file. It is discarded.
   const StatusOr<std::unique_ptr<AtomicFile>> probe = AtomicFile::Create(path);
   return probe.status();
 }

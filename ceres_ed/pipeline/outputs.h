@@ -1,4 +1,4 @@
-// Files that a run is going to write.
+// Checks the files that a run is going to write.
 #ifndef CERES_ED_PIPELINE_OUTPUTS_H_
 #define CERES_ED_PIPELINE_OUTPUTS_H_
 
@@ -8,8 +8,8 @@
 
 namespace ceres_ed {
 
-// Makes the folder of `path` where it is missing, and returns ok when the file can be written. It
-// is left as it was. Error: names the path and the system's reason.
+// Creates the folder of `path` if it does not exist, and returns ok if the file can be written. The
+// file itself is not changed. The error names the path and gives the system's reason.
 Status PrepareOutput(const std::string& path);
 
 }  // namespace ceres_ed

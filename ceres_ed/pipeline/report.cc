@@ -11,7 +11,8 @@ using nlohmann::ordered_json;
 
 namespace {
 
-// Some flags are unsigned numbers of 64 bits.
+// Returns the integer in `text`. Some flags are unsigned numbers of 64 bits, which do not fit into
+// a long long.
 ordered_json IntegerOf(const std::string& text) {
   if (text[0] == '-') return std::stoll(text);
   return std::stoull(text);

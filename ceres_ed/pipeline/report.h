@@ -11,15 +11,16 @@
 
 namespace ceres_ed {
 
-// Writes `report` under a temporary name and renames it to `path`. NaN and infinity, which JSON
-// lacks, become null, and bytes of a path that are no UTF-8 become U+FFFD. Error: names the path.
+// Writes `report` to a temporary file and renames it to `path`. NaN and infinity, which JSON does
+// not have, become null, and bytes of a path that are not UTF-8 become U+FFFD. The error names the
+// path.
 Status WriteReport(const std::string& path, const nlohmann::ordered_json& report);
 
-// Returns each flag by its name, with a value of its type: the "flags" of a report.
+// Returns the "flags" of a report: each flag by its name, with a value of its type.
 nlohmann::ordered_json FlagsReport(const RunFlags& flags);
 
-// Returns {"ceres", "sparse_library", "ordering_library", "blas", "kernels"}: the "backend" of a
-// report.
+// Returns the "backend" of a report: {"ceres", "sparse_library", "ordering_library", "blas",
+// "kernels"}.
 nlohmann::ordered_json BackendReport();
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// The flags that a run was started with, as data for reports and checkpoints.
+// The flags with which a run was started, as data for reports and checkpoints.
 #ifndef CERES_ED_PIPELINE_RUN_FLAG_H_
 #define CERES_ED_PIPELINE_RUN_FLAG_H_
 
@@ -11,7 +11,7 @@ struct RunFlag {
   enum class Type { kBool, kInteger, kNumber, kText };
 
   std::string name;
-  // "true" or "false" for kBool; a number in as few digits as read back as the same.
+  // "true" or "false" for kBool. A number has the fewest digits from which the same number is read.
   std::string value;
   Type type = Type::kText;
 };

@@ -1,4 +1,4 @@
-// What a run tells its caller while it works, and what it asks.
+// The interface through which a run reports to its caller, and through which it can be stopped.
 #ifndef CERES_ED_PIPELINE_RUN_OBSERVER_H_
 #define CERES_ED_PIPELINE_RUN_OBSERVER_H_
 
@@ -6,22 +6,23 @@
 
 namespace ceres_ed {
 
-// Every function may be left as it is: then nothing is shown and nothing stops the run. All calls
-// come from the thread that runs.
+// By default nothing is shown, and nothing stops the run. All calls come from the thread of the
+// run.
 class RunObserver {
  public:
   virtual ~RunObserver() = default;
 
-  // A sentence on the input or on what is done with it.
+  // Receives a sentence about the input or about what is done with it.
   virtual void OnNote(const std::string& /*sentence*/) {}
 
-  // A sentence on something that may spoil the result. Reports contain it, too.
+  // Receives a sentence about something that may spoil the result. Reports contain it, too.
   virtual void OnWarning(const std::string& /*sentence*/) {}
 
-  // `done` of `total` > 0 steps are finished; `note` says in a few words how it goes.
+  // Receives the progress: `done` of `total` > 0 steps are finished. `note` describes the progress
+  // in a few words.
   virtual void OnProgress(int /*done*/, int /*total*/, const std::string& /*note*/) {}
 
-  // Whether the run should end early and keep what it has so far. Asked often.
+  // Returns whether the run should end early and keep its result so far. Called often.
   virtual bool ShouldStop() { return false; }
 };
 

@@ -69,7 +69,7 @@ TEST_F(EdSlamBadInputTest, RefusesASequenceThatCannotBeOpened) {
 
 TEST_F(EdSlamBadInputTest, RefusesAnOutputThatCannotBeWritten) {
   WriteBytes(dir_ / "out", "a file");
-  ExpectRefused(Run("out"), 2, "out: cannot be made a folder: ");
+  ExpectRefused(Run("out"), 2, "out: cannot be created as a folder: ");
   EXPECT_EQ(ReadBytes(dir_ / "out"), "a file");
 }
 
@@ -116,7 +116,7 @@ TEST_F(EdSlamBadInputTest, TellsOfManyDamagedFramesInAFewLines) {
   const ProgramResult result = Run("out");
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(Report()["warnings"].size(), 5u);
-  EXPECT_THAT(result.err, HasSubstr("(more of this kind are not told)"));
+  EXPECT_THAT(result.err, HasSubstr("(further warnings of this kind are not shown)"));
   EXPECT_EQ(Report()["frames"]["skipped"], 10);
 }
 

@@ -163,7 +163,7 @@ TEST_F(EdSlamStopTest, ResumeRefusesOtherFlagsOtherFramesAndDamage) {
   ASSERT_TRUE(WriteDepthImage(last, BumpyScene().RenderDepth(3), 50000.0).ok());
   const ProgramResult other = RunTracked("out", {"--resume"});
   EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("checkpoint.cbor: is of another sequence, expected "));
+  EXPECT_THAT(other.err, HasSubstr("checkpoint.cbor: belongs to another sequence, expected "));
   WriteBytes(last, depth);
 
   const std::string checkpoint = ReadBytes(dir_ / "out/checkpoint.cbor");
@@ -187,8 +187,8 @@ TEST_F(EdSlamStopTest, ResumeTakesAnotherStrategyAndSaysSo) {
   EXPECT_EQ(batch.exit_code, 0);
   EXPECT_THAT(
       batch.err,
-      HasSubstr("went on after frame 9 with --mode=batch, expected --mode=two_level for the "
-                "bytes of one run"));
+      HasSubstr("continued after frame 9 with --mode=batch, expected --mode=two_level for the "
+                "same bytes as without the interruption"));
   const std::string after = ReadBytes(dir_ / "out/frames.csv");
   EXPECT_EQ(after.substr(0, before.size()), before);
   EXPECT_EQ(std::count(after.begin(), after.end(), '\n'), 25);

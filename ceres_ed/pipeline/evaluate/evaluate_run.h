@@ -1,4 +1,4 @@
-// Evaluations of files: read, measure, tell.
+// Evaluates files: reads them, measures, and reports the figures.
 #ifndef CERES_ED_PIPELINE_EVALUATE_EVALUATE_RUN_H_
 #define CERES_ED_PIPELINE_EVALUATE_EVALUATE_RUN_H_
 
@@ -10,18 +10,19 @@
 
 namespace ceres_ed {
 
-// As of RunObserver, and with what was measured, when all files are written.
+// A RunObserver that also receives the figures, after all files have been written.
 class EvaluateObserver : public RunObserver {
  public:
   virtual void OnPair(const Evaluation& /*evaluation*/) {}
   virtual void OnSequence(const SequenceFigures& /*figures*/) {}
 };
 
-// Measures a fitted surface against its target, or what a run has made of a sequence against all
-// that the sequence knows. Returns how it ended.
+// Measures a fitted surface against its target, or the result of a run on a sequence against
+// everything that is known about the sequence. Returns how the evaluation ended.
 Outcome RunEvaluation(const EvalSettings& settings, EvaluateObserver* observer);
 
-// The two parts of it.
+// Evaluate a pair or a sequence. RunEvaluation() calls one of them after it has checked the
+// outputs.
 Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer);
 Outcome EvaluateSequence(const EvalSettings& settings, EvaluateObserver* observer);
 

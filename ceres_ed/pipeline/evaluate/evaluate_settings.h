@@ -1,4 +1,4 @@
-// What an evaluation of files is asked to do.
+// The settings of an evaluation of files.
 #ifndef CERES_ED_PIPELINE_EVALUATE_EVALUATE_SETTINGS_H_
 #define CERES_ED_PIPELINE_EVALUATE_EVALUATE_SETTINGS_H_
 
@@ -8,20 +8,20 @@
 
 namespace ceres_ed {
 
-// Either a pair or a sequence, with the paths of the other one empty.
+// The settings for a pair or for a sequence. The paths of the other one are empty.
 struct EvalSettings {
-  // A pair.
+  // For a pair.
   std::string fitted;
   std::string target;
   std::string source;
   std::string truth;
   std::string error_ply;
-  // A sequence.
+  // For a sequence.
   std::string sequence;
   std::string result;
-  // Either.
+  // For both.
   std::string report;
-  // For the report.
+  // The flags of the program, for the report.
   RunFlags flags;
 
   bool is_sequence() const { return !sequence.empty(); }

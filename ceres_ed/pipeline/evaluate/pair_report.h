@@ -8,8 +8,8 @@
 
 namespace ceres_ed {
 
-// Returns every figure, each set of distances as {"mean", "rms", "p50", "p95", "max", "trimmed",
-// "mean_percent"}; null where there is no figure.
+// Returns all figures. Each set of distances is {"mean", "rms", "p50", "p95", "max", "trimmed",
+// "mean_percent"}. A figure that was not computed is null.
 nlohmann::ordered_json EvaluationReport(const Evaluation& evaluation);
 
 }  // namespace ceres_ed

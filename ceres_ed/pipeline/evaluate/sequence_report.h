@@ -8,9 +8,10 @@
 
 namespace ceres_ed {
 
-// Returns {"truth", "camera", "depth", "tracks_2d", "log"}, in metres, pixels, degrees and seconds,
-// each null where it could not be had: a "summary" over the frames (mean and median of each figure
-// of a frame) and all "frames".
+// Returns {"truth", "camera", "depth", "tracks_2d", "log"} in metres, pixels, degrees and seconds.
+// A part that was not computed is null. "truth" and "depth" have a "summary" over the frames (mean,
+// median and maximum of each figure of a frame) and all "frames"; the two alignments of "camera"
+// and "tracks_2d" have their own figures and all "frames".
 nlohmann::ordered_json SequenceReport(const SequenceFigures& figures);
 
 }  // namespace ceres_ed

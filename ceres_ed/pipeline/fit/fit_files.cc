@@ -25,7 +25,7 @@ CloudFile Describe(const std::string& path, const LoadedCloud& loaded) {
           Diagonal(loaded.cloud.points)};
 }
 
-// Which point a vertex of the source's file became; -1 where it was dropped.
+// Returns for each vertex of the source's file the index of its point, or -1 if it was left out.
 std::vector<int> PointsOfVertices(const FitFiles& files) {
   std::vector<int> points(files.source.points, -1);
   for (std::size_t i = 0; i < files.vertex_of_point.size(); ++i) {
@@ -66,8 +66,8 @@ void Append(const std::vector<std::string>& from, std::vector<std::string>* to) 
   to->insert(to->end(), from.begin(), from.end());
 }
 
-// The source's file with a property std_dev; kUnknown where nothing is known of a vertex, for not
-// every reader of ASCII knows "nan".
+// Returns the document of the source with a property std_dev. Its value is kUnknown for a vertex
+// without a standard deviation, because not every reader of ASCII files accepts "nan".
 PlyDocument WithDeviations(const FitFiles& files, const std::vector<double>& std_dev) {
   constexpr double kUnknown = -1.0;
   PlyDocument document = files.source_document;
@@ -110,7 +110,8 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
     if (Status status = LoadFixed(settings.fixed, &files); !status.ok()) return status;
   }
   if (settings.options.rigid_first && !files.input.fixed_points.empty()) {
-    files.warnings.push_back("no rigid motion is sought: --fixed settles where the source stands");
+    files.warnings.push_back(
+        "no rigid motion is sought: --fixed determines the pose of the source");
   }
   return files;
 }

@@ -1,4 +1,4 @@
-// What a fit of files reads, and what it writes beside its report.
+// Reads the inputs of a fit of files, and writes its outputs except the report.
 #ifndef CERES_ED_PIPELINE_FIT_FIT_FILES_H_
 #define CERES_ED_PIPELINE_FIT_FIT_FILES_H_
 
@@ -12,37 +12,40 @@
 
 namespace ceres_ed {
 
-// A PLY file, as reports describe it.
+// A cloud file, as reports describe it.
 struct CloudFile {
   std::string path;
-  // The counts of the whole file, including the points that cannot be used.
+  // The numbers of points and faces in the whole file, including points that cannot be used.
   int points = 0;
   int faces = 0;
   // The diagonal of the bounding box of the points that are used, in the unit of the file.
   double diagonal = 0.0;
 };
 
-// Everything that was read.
+// Everything that a fit reads.
 struct FitFiles {
   CloudFile source;
-  // Its path is empty where landmarks alone are fitted.
+  // Its path is empty if only landmarks are fitted.
   CloudFile target;
-  // Points are those of the files that are finite; landmarks and fixed points index these.
+  // The points of its clouds are the finite points of the files. Landmarks and fixed points are
+  // indices of these points.
   FitInput input;
-  // To put the result back into the source's file.
+  // The document of the source and the rows of the points in it (LoadedCloud), with which the
+  // result is written.
   PlyDocument source_document;
   std::vector<int> vertex_of_point;
   std::vector<std::string> warnings;
 };
 
-// Returns the inputs. Errors name file, place, value and what was expected.
+// Returns the inputs. Errors name the file, the place, the value and what was expected.
 StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings);
 
-// Returns ok when every output can be written, for the long work comes first. Makes the folders
-// that outputs are in where they are missing.
+// Returns ok if every output can be written. This is checked before the long computation. Creates
+// the folders of the outputs if they do not exist.
 Status PrepareOutputs(const FitSettings& settings);
 
-// Writes the fitted source, the warp and the graph, where they are wanted, each atomically.
+// Writes the fitted source and, if they are requested, the warp and the graph. Each file is written
+// atomically.
 Status WriteFitFiles(const FitSettings& settings, const FitFiles& files, const FitResult& result);
 
 }  // namespace ceres_ed

@@ -32,7 +32,7 @@ ordered_json NodesReport(const FitResult& result) {
 ordered_json EnergyReport(const FitResult& result) {
   ordered_json terms = ordered_json::object();
   for (const TermEnergy& term : result.final_energy.terms) {
-    // A user may add an energy that is there already.
+    // A user may add an energy with the name of another one: the names get numbers.
     std::string name = term.label;
     for (int copy = 2; terms.contains(name); ++copy) name = term.label + "_" + std::to_string(copy);
     terms[name] = {{"weighted", term.weighted}, {"raw", term.raw}, {"residuals", term.residuals}};
@@ -42,7 +42,7 @@ ordered_json EnergyReport(const FitResult& result) {
           {"terms", terms}};
 }
 
-// Null where it was not asked for, or could not be had.
+// Returns null if the covariance was not requested or could not be computed.
 ordered_json CovarianceReport(const FitUncertainty& uncertainty) {
   if (uncertainty.std_dev.empty()) return nullptr;
   std::vector<double> known;
@@ -107,7 +107,7 @@ ordered_json TimeReport(const FitRun& run) {
           {"write", run.write_s}};
 }
 
-// Energies of the user that have no residuals at the end of the fit.
+// Returns the user's energies that have no residuals at the end of the fit.
 std::vector<std::string> IdleEnergies(const FitRun& run) {
   std::vector<std::string> names;
   if (!run.result->IsUsable()) return names;

@@ -1,4 +1,4 @@
-// What is told of a fit of files: report.json, and warnings.
+// The report of a fit of files: report.json and the warnings.
 #ifndef CERES_ED_PIPELINE_FIT_FIT_REPORT_H_
 #define CERES_ED_PIPELINE_FIT_FIT_REPORT_H_
 
@@ -11,12 +11,13 @@
 
 namespace ceres_ed {
 
-// Returns all warnings: of the inputs, of the fit, of energies and plugins that do nothing, and of
-// libraries that made it slow.
+// Returns all warnings: those about the inputs, about the fit, about energies and plugins that have
+// no effect, and about libraries that made the fit slow.
 std::vector<std::string> FitWarnings(const FitRun& run);
 
-// Returns the contents of report.json; lengths are in the target's unit, but for the diagonals.
-// "noise" is the standard deviation of the target's noise across its surface.
+// Returns the contents of report.json. Lengths are in the target's unit, except for the diagonals,
+// which are in the unit of their file, and the standard deviations of "covariance", which are in
+// the source's unit. "noise" is the standard deviation of the target's noise across its surface.
 nlohmann::ordered_json FitReport(const FitRun& run);
 
 }  // namespace ceres_ed

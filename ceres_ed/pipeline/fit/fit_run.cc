@@ -28,7 +28,7 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
   return Fit(input, options, registry);
 }
 
-// Writes what there is and says how the run ended.
+// Writes the results and the report, and returns how the run ended.
 Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
   const FitSettings& settings = *run.settings;
   const FitResult& result = *run.result;
@@ -79,12 +79,14 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
   if (settings.target.empty() && settings.landmarks.empty()) {
     return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
   }
+  // Check the arguments and the outputs before the computation.
   EnergyRegistry registry;
   Outcome energies = LoadEnergies(settings.plugin, settings.options.extra_energies, &registry);
   if (!energies.done()) return energies;
   const Status status = PrepareOutputs(settings);
   if (!status.ok()) return Outcome::BadInput(status);
 
+  // Read and fit.
   const StatusOr<FitFiles> files = LoadFitFiles(settings);
   if (!files.ok()) return Outcome::BadInput(files.status());
   const double load_s = clock.Seconds();

@@ -1,4 +1,4 @@
-// A fit of files: read, fit, write, tell.
+// Fits files: reads the inputs, fits, and writes the results and the report.
 #ifndef CERES_ED_PIPELINE_FIT_FIT_RUN_H_
 #define CERES_ED_PIPELINE_FIT_FIT_RUN_H_
 
@@ -15,41 +15,43 @@
 
 namespace ceres_ed {
 
-// A fit with all that led to it. None of the pointers is null.
+// A fit with its inputs and settings. None of the pointers is null.
 struct FitRun {
   const FitSettings* settings = nullptr;
-  // Its warnings are those of the inputs, the result's are those of the fit.
+  // Its warnings are about the inputs; those of the result are about the fit.
   const FitFiles* files = nullptr;
   const FitResult* result = nullptr;
   const EnergyRegistry* registry = nullptr;
-  // Seconds; `total_s` is from the start of the program until now.
+  // Times in seconds. `total_s` is counted from the start of the program.
   double load_s = 0.0;
   double write_s = 0.0;
   double total_s = 0.0;
-  // All of them: FitWarnings().
+  // All warnings (FitWarnings()).
   std::vector<std::string> warnings;
 };
 
-// How far points are from the places that landmarks give them, in the target's unit.
+// The distances of points from the positions that landmarks give them, in the target's unit.
 struct LandmarkErrors {
   int count = 0;
   double rms = 0.0;
   double max = 0.0;
 };
+
+// Returns the errors of all landmarks; only their count if the fit has no points.
 LandmarkErrors MeasureLandmarks(const FitRun& run);
 
-// Returns how many nodes have data.
+// Returns the number of nodes with data (PR nodes).
 int NumPointRelevant(const FitResult& result);
 
-// As of RunObserver, and with the fit when it is done.
+// A RunObserver that also receives the fit.
 class FitObserver : public RunObserver {
  public:
-  // A usable fit has ended, and its files are written.
+  // Called after a usable fit has ended and its files have been written.
   virtual void OnEnd(const FitRun& /*run*/) {}
 };
 
-// Returns how the run ended. `clock` runs since the start of the program; time limits and reports
-// count from there.
+// Fits the files and returns how the run ended. `clock` must have been started with the program:
+// the time limit and the reported times are counted from there.
 Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* observer);
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// What a fit of files is asked to do.
+// The settings of a fit of files.
 #ifndef CERES_ED_PIPELINE_FIT_FIT_SETTINGS_H_
 #define CERES_ED_PIPELINE_FIT_FIT_SETTINGS_H_
 
@@ -9,22 +9,22 @@
 
 namespace ceres_ed {
 
-// Paths are empty where a file is not given or not wanted.
+// A path is empty if the file is not given or not requested.
 struct FitSettings {
   FitOptions options;
-  // Inputs. Either a target or landmarks must be there.
+  // The inputs. There must be a target, or landmarks, or both.
   std::string source;
   std::string target;
   std::string landmarks;
   std::string fixed;
-  // Shared objects with more energies, several with ";" between them.
+  // Shared objects with more energies, separated by ";".
   std::string plugin;
-  // Outputs.
+  // The outputs.
   std::string output;
   std::string warp;
   std::string graph;
   std::string report;
-  // For the report.
+  // The flags of the program, for the report.
   RunFlags flags;
 };
 

@@ -25,7 +25,7 @@ Status WriteInfo(const SimulateSettings& settings, const SyntheticSequence& sequ
   return WriteReport(settings.output + "/info.json", info);
 }
 
-// Writes the frames, until someone asks it to stop.
+// Writes the frames until the observer asks to stop.
 Status WriteFrames(const SyntheticSequence& sequence,
                    bool color,
                    NativeSequenceWriter* writer,
@@ -57,7 +57,7 @@ Outcome RunSimulation(const SimulateSettings& settings, SimulateObserver* observ
     return Outcome::BadInput(Status::Error(
         settings.output + ": holds a sequence already, expected an empty folder or --overwrite"));
   }
-  // Meshing an organ takes seconds.
+  // The progress is shown before the tissue is meshed, which takes seconds for an organ.
   observer->OnProgress(0, 1, "meshing the tissue");
   const SyntheticSequence sequence(settings.options);
   if (!sequence.truth_note().empty()) observer->OnWarning(sequence.truth_note());
@@ -75,8 +75,8 @@ Outcome RunSimulation(const SimulateSettings& settings, SimulateObserver* observ
   observer->OnEnd({frames, sequence.truth_mesh().size()});
   if (frames < sequence.num_frames()) {
     return Outcome::StoppedEarly("stopped at frame " + std::to_string(frames) + " of " +
-                                 std::to_string(sequence.num_frames()) + "; what is in " +
-                                 settings.output + " is whole");
+                                 std::to_string(sequence.num_frames()) + "; the frames in " +
+                                 settings.output + " are complete");
   }
   return Outcome::Done();
 }

@@ -1,4 +1,4 @@
-// Synthetic sequences on disk.
+// Writes synthetic sequences to disk.
 #ifndef CERES_ED_PIPELINE_SIMULATE_SIMULATE_RUN_H_
 #define CERES_ED_PIPELINE_SIMULATE_SIMULATE_RUN_H_
 
@@ -16,14 +16,14 @@ struct SimulateSettings {
   SyntheticSequenceOptions options;
   // The name of the scene, for info.json.
   std::string scene;
-  // The folder to write.
+  // The folder that is written.
   std::string output;
-  // Whether to replace a sequence that is in `output`.
+  // Whether a sequence that is already in `output` is replaced.
   bool overwrite = false;
-  // Whether to write color/ too.
+  // Whether colour images (color/) are written, too.
   bool color = true;
-  // For info.json. Where the files are must not change what is in them: `output`, `overwrite` and
-  // `quiet` are left out.
+  // The flags for info.json. `output`, `overwrite` and `quiet` are left out of it, because the
+  // contents of the files must not depend on where they are.
   RunFlags flags;
 };
 
@@ -33,13 +33,13 @@ struct SimulatedSequence {
   std::size_t truth_vertices = 0;
 };
 
-// As of RunObserver, and with what was written.
+// A RunObserver that also receives what was written.
 class SimulateObserver : public RunObserver {
  public:
   virtual void OnEnd(const SimulatedSequence& /*sequence*/) {}
 };
 
-// Writes the sequence in the native layout, with its truth. Returns how it ended.
+// Writes the sequence in the native layout, with its truth. Returns how the run ended.
 Outcome RunSimulation(const SimulateSettings& settings, SimulateObserver* observer);
 
 }  // namespace ceres_ed

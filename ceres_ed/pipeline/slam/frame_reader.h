@@ -1,4 +1,4 @@
-// The frames of a sequence one by one, read while the frame before is taken in.
+// Reads the frames of a sequence one by one, each while the previous one is processed.
 #ifndef CERES_ED_PIPELINE_SLAM_FRAME_READER_H_
 #define CERES_ED_PIPELINE_SLAM_FRAME_READER_H_
 
@@ -9,7 +9,7 @@
 
 namespace ceres_ed {
 
-// A frame, or why there is none.
+// A frame, or the reason why there is none.
 struct ReadFrame {
   StatusOr<DepthFrame> frame;
   FrameProblem problem;
@@ -17,11 +17,11 @@ struct ReadFrame {
 
 class FrameReader {
  public:
-  // Reads ahead on a thread of its own if there may be more than one. `sequence` must outlive it.
+  // Reads ahead on another thread if `num_threads` > 1. `sequence` must outlive this.
   FrameReader(const DepthSequence& sequence, int num_threads)
       : sequence_(sequence), reads_ahead_(num_threads > 1) {}
 
-  // Returns frame `index`, and has the one behind it read meanwhile.
+  // Returns frame `index`, and starts to read the next one in the background if it reads ahead.
   ReadFrame Read(int index);
 
  private:
@@ -29,7 +29,7 @@ class FrameReader {
 
   const DepthSequence& sequence_;
   bool reads_ahead_;
-  // Frame `next_index_` on its way, or nothing.
+  // The read of frame `next_index_` in the background; invalid if there is none.
   std::future<ReadFrame> next_;
   int next_index_ = -1;
 };

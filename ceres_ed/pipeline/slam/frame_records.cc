@@ -15,7 +15,7 @@ constexpr FrameStatus kStatuses[] = {FrameStatus::kTracked,
                                      FrameStatus::kLost,
                                      FrameStatus::kSkipped};
 
-// A status as checkpoints have it.
+// Returns the number of the status in checkpoints.
 int NumberOf(const FrameRecord& record) {
   for (const FrameStatus status : kStatuses) {
     if (Is(record, status)) return static_cast<int>(status);

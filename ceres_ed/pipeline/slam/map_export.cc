@@ -9,8 +9,8 @@
 namespace ceres_ed {
 namespace {
 
-// Calls visit(point, binding, place) for each point of the map; `place` is where it is now, in map
-// units and the map frame.
+// Calls visit(point, binding, place) for each point of the map. `place` is its current position in
+// map units and in the map frame.
 template <typename Visit>
 void ForEachPoint(const DeformableMap& map, const Visit& visit) {
   for (int slot = 0; slot < map.num_slots(); ++slot) {

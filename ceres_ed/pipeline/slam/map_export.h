@@ -1,4 +1,4 @@
-// The map of a tracker in metres: for files, and for whoever looks at it from outside.
+// Exports the map of a tracker in metres, for files and for users of the library.
 #ifndef CERES_ED_PIPELINE_SLAM_MAP_EXPORT_H_
 #define CERES_ED_PIPELINE_SLAM_MAP_EXPORT_H_
 
@@ -12,26 +12,28 @@
 
 namespace ceres_ed {
 
+// The coordinate frame of an exported map.
 enum class MapFrame {
-  // That of the first camera.
+  // The frame of the first camera.
   kMap,
-  // That of the camera after the last frame.
+  // The frame of the camera after the last processed image.
   kCamera,
 };
 
-// Each of these shows the map as it is: DeformableSlam::CatchUp() comes first where the whole of it
-// matters.
+// These functions export the map as it is. Call DeformableSlam::CatchUp() first if the whole map
+// must be up to date.
 
-// Returns all points as they are now, as the nodes deform them.
+// Returns all points in their current positions, as the nodes deform them.
 MapSnapshot ExportMap(const DeformableSlam& slam, MapFrame frame = MapFrame::kMap);
 
-// Returns all points in the camera frame, with where they were born: for live clouds.
+// Returns all points in the camera frame, with the positions at which they were created, for live
+// clouds.
 std::vector<LivePoint> ExportLivePoints(const DeformableSlam& slam);
 
-// Returns the warp from where tissue is at rest to where it is now, map frame.
+// Returns the warp from the rest shape of the tissue to its current shape, in the map frame.
 Warp ExportWarp(const DeformableSlam& slam);
 
-// Returns map_from_camera after the last frame; of no meaning before the first one.
+// Returns map_from_camera after the last frame. The result is meaningless before the first frame.
 CameraPose ExportCameraPose(const DeformableSlam& slam);
 
 }  // namespace ceres_ed

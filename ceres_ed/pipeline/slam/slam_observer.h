@@ -1,4 +1,4 @@
-// What tracking of a sequence tells its caller.
+// The observer of the tracking of a sequence.
 #ifndef CERES_ED_PIPELINE_SLAM_SLAM_OBSERVER_H_
 #define CERES_ED_PIPELINE_SLAM_SLAM_OBSERVER_H_
 
@@ -13,31 +13,31 @@
 
 namespace ceres_ed {
 
-// A run as far as it has come. None of the pointers is null.
+// The state of a run. None of the pointers is null.
 struct SlamRun {
   const SlamSettings* settings = nullptr;
   const DepthSequence* sequence = nullptr;
   const DeformableSlam* slam = nullptr;
   const std::vector<FrameRecord>* records = nullptr;
   const std::vector<std::string>* warnings = nullptr;
-  // "running" (a checkpoint), "done", "time_limit", "interrupted" or "failed".
+  // "running" (at a checkpoint), "done", "time_limit", "interrupted" or "failed".
   std::string status;
   std::string message;
-  // Since the start of the program, and of all parts of a run that was resumed.
+  // The seconds since the start of the program, plus those of the earlier parts of a resumed run.
   double total_s = 0.0;
 };
 
-// As of RunObserver, and frame by frame.
+// A RunObserver that also receives each frame and the end of the run.
 class SlamObserver : public RunObserver {
  public:
-  // A frame was taken in; `done` of `total` are behind us, at `frames_per_s` of this part of the
-  // run.
+  // Called after each frame. `done` of `total` frames are finished; this part of the run processes
+  // `frames_per_s`.
   virtual void OnFrame(const FrameRecord& /*record*/,
                        int /*done*/,
                        int /*total*/,
                        double /*frames_per_s*/) {}
 
-  // The run has ended, and its results are written.
+  // Called when the run has ended and its results have been written.
   virtual void OnEnd(const SlamRun& /*run*/) {}
 };
 

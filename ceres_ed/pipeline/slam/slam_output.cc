@@ -29,7 +29,8 @@ constexpr char kTracks[] = "tracks.csv";
 constexpr char kMap[] = "map.ply";
 constexpr char kGraph[] = "graph.ply";
 
-// A killed run may have left a file under its temporary name, NAME.tmp.PID.N.
+// Returns the name without the ending of a temporary file: a killed run may have left a file
+// NAME.tmp.PID.N.
 std::string WithoutTemporaryEnd(const std::string& name) {
   return name.substr(0, std::min(name.find(".tmp."), name.size()));
 }
@@ -42,7 +43,7 @@ bool IsResultName(const std::string& name) {
   return false;
 }
 
-// Removes the files of a folder whose name `goes`.
+// Removes the files in a folder for whose names `goes` returns true.
 template <typename Predicate>
 void RemoveFiles(const std::string& directory, Predicate goes) {
   std::error_code error;
@@ -56,6 +57,7 @@ void RemoveFiles(const std::string& directory, Predicate goes) {
   for (const fs::path& path : gone) fs::remove(path, error);
 }
 
+// Removes the temporary files of a killed run and, if `results_too`, the results of an earlier one.
 void RemoveLeftOvers(const std::string& directory, bool results_too) {
   const auto goes = [results_too](const std::string& name) {
     return results_too || name.find(".tmp.") != std::string::npos;
@@ -72,14 +74,15 @@ Status MakeFolders(const std::string& directory) {
   std::error_code error;
   fs::create_directories(directory + "/live", error);
   if (error) {
-    return Status::Error(directory + ": cannot be made a folder: " + error.message());
+    return Status::Error(directory + ": cannot be created as a folder: " + error.message());
   }
-  // What permissions and mounts allow is for the system to say.
+  // Only an attempt shows whether permissions and mounts allow a file.
   const auto probe = AtomicFile::Create(directory + "/" + kFrames);
   return probe.ok() ? Status::Ok() : probe.status();
 }
 
-// Bytes of frames.csv, trajectory.txt and tracks.csv; -1 for one that isn't there yet.
+// The sizes of frames.csv, trajectory.txt and tracks.csv in bytes; -1 for a file that does not
+// exist yet.
 struct FileSizes {
   double frames = -1.0;
   double trajectory = -1.0;

@@ -1,4 +1,4 @@
-// The folder that a run fills.
+// The output folder of the tracking of a sequence.
 #ifndef CERES_ED_PIPELINE_SLAM_SLAM_OUTPUT_H_
 #define CERES_ED_PIPELINE_SLAM_SLAM_OUTPUT_H_
 
@@ -18,49 +18,55 @@ namespace ceres_ed {
 inline constexpr char kReportName[] = "report.json";
 inline constexpr char kCheckpointName[] = "checkpoint.cbor";
 
-// What is written of a frame.
+// What is written for a frame.
 struct FrameOutput {
-  // When it was taken, seconds.
+  // The time of the frame in seconds.
   double time_s = 0.0;
+  // Whether a live cloud is written.
   bool live = true;
-  // Null: no points are followed.
+  // The points that are followed; null if there are none.
   const TrackedPoints* tracked = nullptr;
 };
 
-// Whether a folder has the result of a run that has come to its end, or to a limit: nothing that
-// should be lost without a word.
+// Returns whether a folder has the result of a run that has ended or reached a limit, which must
+// not be replaced unless the user asks for it. A report that cannot be understood counts as a
+// result.
 bool HoldsResult(const std::string& directory);
 
-// frames.csv, trajectory.txt, tracks.csv and live/ grow frame by frame; map.ply and graph.ply are
-// made anew when asked for. Whatever ends the program, every file is whole and every row complete.
+// Writes the output of a run. frames.csv, trajectory.txt, tracks.csv and live/ grow frame by frame;
+// WriteMap() replaces map.ply and graph.ply. Whenever the program ends, even if it is killed, all
+// files and rows are complete.
 class SlamOutput {
  public:
-  // Makes the folder where it is missing, and empties it of what an earlier run has left there:
-  // files of these names, no others. Error: names the path and the system's reason.
+  // Creates the folder if it does not exist, and removes the files that an earlier run has left in
+  // it, but no files of other names. The error names the path and gives the system's reason.
   static StatusOr<std::unique_ptr<SlamOutput>> Create(const std::string& directory,
                                                       const PinholeCamera& camera);
 
-  // Goes on in a folder as `archive` knows it: rows behind those of the checkpoint are dropped.
+  // Continues in a folder from the state that `archive` has saved. Rows that were written after the
+  // checkpoint are removed.
   static StatusOr<std::unique_ptr<SlamOutput>> Reopen(const std::string& directory,
                                                       const PinholeCamera& camera,
                                                       CheckpointArchive* archive);
 
-  // Writes what belongs to a frame: nothing where its camera is not known. The row of frames.csv is
-  // for WriteRecord().
+  // Writes the live cloud, the rows of tracks.csv and the row of trajectory.txt for a frame, or
+  // nothing if its camera is not known. WriteRecord() writes the row of frames.csv.
   Status WriteFrame(const FrameRecord& record,
                     const DeformableSlam& slam,
                     const FrameOutput& options);
 
-  // Appends the row to frames.csv: to be called last, so that what it tells of is there.
+  // Appends the row to frames.csv. Call it last, so that a row exists only if the files of its
+  // frame do.
   Status WriteRecord(const FrameRecord& record);
 
-  // Writes map.ply (the map as it is now, map frame, metres) and graph.ply (the same of the nodes).
+  // Writes map.ply (the current map, in the map frame and in metres) and graph.ply (its nodes, in
+  // the same frame and unit).
   Status WriteMap(const DeformableSlam& slam) const;
 
-  // Saves how much of each growing file there is, for Reopen().
+  // Saves the size of each growing file, for Reopen().
   void Save(CheckpointArchive* archive) const;
 
-  // "DIR/name".
+  // Returns "DIR/name".
   std::string Path(const std::string& name) const { return directory_ + "/" + name; }
 
  private:
@@ -73,7 +79,7 @@ class SlamOutput {
   PinholeCamera camera_;
   AppendFile frames_;
   AppendFile trajectory_;
-  // Opened with its first row.
+  // The file is created when its first row is written.
   AppendFile tracks_;
 };
 

@@ -32,14 +32,14 @@ ordered_json Statistics(const std::vector<double>& values) {
           {"max", values.empty() ? 0.0 : *std::max_element(values.begin(), values.end())}};
 }
 
-// The most memory that the process has held, MiB.
+// Returns the peak memory of the process in MiB.
 double PeakMemoryMib() {
   struct rusage usage;
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<double>(usage.ru_maxrss) / 1024.0;
 }
 
-// What it holds now, MiB; 0 where the system doesn't say.
+// Returns the present memory of the process in MiB; 0 if the system does not provide it.
 double ResidentMemoryMib() {
   std::ifstream file("/proc/self/statm");
   double total = 0.0, resident = 0.0;
@@ -47,7 +47,7 @@ double ResidentMemoryMib() {
   return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024.0 * 1024.0);
 }
 
-// The map's share, by owner, in bytes.
+// Returns the memory of each part of the map in bytes, and that of the process in MiB.
 ordered_json MemoryReport(const DeformableSlam& slam) {
   const MapMemory memory = slam.Memory();
   const auto per = [](std::size_t bytes, int count) {

@@ -1,4 +1,4 @@
-// report.json of the tracking of a sequence.
+// The report.json of the tracking of a sequence.
 #ifndef CERES_ED_PIPELINE_SLAM_SLAM_REPORT_H_
 #define CERES_ED_PIPELINE_SLAM_SLAM_REPORT_H_
 
@@ -8,7 +8,7 @@
 
 namespace ceres_ed {
 
-// Returns the contents of report.json; lengths are in metres, times in seconds.
+// Returns the contents of report.json. Lengths are in metres, times in seconds.
 nlohmann::ordered_json SlamReport(const SlamRun& run);
 
 }  // namespace ceres_ed

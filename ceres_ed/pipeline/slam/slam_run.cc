@@ -25,7 +25,7 @@ bool HasPoses(const DepthSequence& sequence) {
   return false;
 }
 
-// The points to follow; their ids are the rows of the file.
+// Returns the points to follow. Their ids are their rows in the file.
 StatusOr<std::vector<NamedPoint>> LoadPoints(const std::string& path, WarningLog* warnings) {
   std::vector<NamedPoint> points;
   if (path.empty()) return points;
@@ -38,7 +38,7 @@ StatusOr<std::vector<NamedPoint>> LoadPoints(const std::string& path, WarningLog
   return points;
 }
 
-// A run empties its output folder of what an earlier one has left there.
+// Checks the output folder, because a run removes the results of an earlier run from it.
 Outcome CheckOutputFolder(const SlamSettings& settings) {
   std::error_code error;
   if (std::filesystem::equivalent(settings.input, settings.output, error)) {
@@ -47,8 +47,8 @@ Outcome CheckOutputFolder(const SlamSettings& settings) {
   }
   if (!settings.resume && !settings.overwrite && HoldsResult(settings.output)) {
     return Outcome::Usage("--output=" + settings.output +
-                          " holds a result already, expected another folder, --resume to go on "
-                          "with it or --overwrite to replace it");
+                          " holds a result already, expected another folder, --resume to "
+                          "continue it or --overwrite to replace it");
   }
   return Outcome::Done();
 }
@@ -61,6 +61,7 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   Outcome outcome = LoadEnergies(settings.plugin, energies, &registry);
   if (!outcome.done()) return outcome;
 
+  // Open the sequence and check the output folder.
   const StatusOr<std::unique_ptr<DepthSequence>> sequence =
       OpenSequence(settings.input, settings.sequence);
   if (!sequence.ok()) return Outcome::BadInput(sequence.status());
@@ -76,6 +77,7 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
     return Outcome::BadInput(
         Status::Error(settings.input + ": has no poses, expected some with --camera=given"));
   }
+  // Create the tracker and run it.
   StatusOr<std::vector<NamedPoint>> points = LoadPoints(settings.track, &warnings);
   if (!points.ok()) return Outcome::BadInput(points.status());
   const StatusOr<std::unique_ptr<DeformableSlam>> slam =

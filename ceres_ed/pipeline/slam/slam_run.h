@@ -1,4 +1,4 @@
-// Tracking of a sequence on disk: open it, then read, track and write frame by frame.
+// Tracks a sequence on disk: opens it, and then reads, tracks and writes frame by frame.
 #ifndef CERES_ED_PIPELINE_SLAM_SLAM_RUN_H_
 #define CERES_ED_PIPELINE_SLAM_SLAM_RUN_H_
 
@@ -9,10 +9,10 @@
 
 namespace ceres_ed {
 
-// Returns how the run ended. `clock` runs since the start of the program; time limits and reports
-// count from there. A usage: energies that are unknown, --resume with other flags than before, an
-// output folder that is the input, or that holds a result which neither `resume` nor `overwrite`
-// gives up.
+// Tracks the sequence and returns how the run ended. `clock` must have been started with the
+// program: the time limit and the reported times are counted from there. These are usage errors: an
+// energy is unknown; --resume is given with other flags than before; the output folder is the input
+// folder; it has a result, and neither `resume` nor `overwrite` is set.
 Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* observer);
 
 }  // namespace ceres_ed

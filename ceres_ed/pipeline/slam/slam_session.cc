@@ -19,7 +19,7 @@
 namespace ceres_ed {
 namespace {
 
-// FNV-1a over the measured depth: tells one sequence from another of the same camera.
+// Returns the FNV-1a hash of the depth, which distinguishes sequences of the same camera.
 std::string Fingerprint(const DepthImage& depth) {
   std::uint64_t hash = 14695981039346656037ull;
   for (const float z : depth.pixels()) {
@@ -30,7 +30,7 @@ std::string Fingerprint(const DepthImage& depth) {
   return std::to_string(hash);
 }
 
-// The first line of `now` that `before` doesn't have, and what it had there.
+// Returns the first line of `now` that differs from `before`, and the line that was expected.
 std::string FirstDifference(const std::string& now, const std::string& before) {
   std::istringstream now_lines(now), before_lines(before);
   std::string a, b;
@@ -117,6 +117,7 @@ void SlamSession::CheckDepth(const DepthImage& depth) {
 
 Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* record) {
   const std::string name = "frame " + std::to_string(frame.number);
+  // Prepare the input.
   SlamFrame input;
   input.number = frame.number;
   input.depth = &frame.depth;
@@ -130,6 +131,7 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   }
   const bool live = settings_.live_every > 0 && index % settings_.live_every == 0;
   input.catch_up = live || !points_.empty() || tracked_.size() > 0;
+  // Track the frame.
   Timer timer;
   const double load_s = (*record)["t_load"];
   const FrameReport report = slam_->Process(input);
@@ -137,12 +139,14 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   *record = MakeFrameRecord(report, *slam_);
   (*record)["t_load"] = load_s;
   (*record)["t_total"] = timer.Restart();
+  // Report what went wrong.
   if (Is(*record, FrameStatus::kSkipped)) {
     warnings_->Add("empty", name + ": no depth that could be used: frame skipped");
   }
   if (Is(*record, FrameStatus::kLost)) {
     warnings_->Add("lost", name + ": the camera was not found: frame lost");
   }
+  // Bind the points to follow to the first map.
   if (!points_.empty() && slam_->unit() > 0.0) {
     StatusOr<TrackedPoints> bound = TrackedPoints::Bind(points_, *slam_, sequence_.camera());
     if (!bound.ok()) {
@@ -151,6 +155,7 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
     tracked_ = *std::move(bound);
     points_.clear();
   }
+  // Write the files of the frame.
   FrameOutput options;
   options.time_s = sequence_.time_s(index);
   options.live = live;
@@ -165,7 +170,7 @@ Outcome SlamSession::End(Outcome outcome) {
   if (outcome.done() && !tracked) {
     outcome = Outcome::NoResult(
         Status::Error(settings_.input + ": none of its " + std::to_string(records_.size()) +
-                      " frames could be used, expected depth in one at least"));
+                      " frames could be used, expected depth in at least one"));
   }
   slam_->CatchUp();
   if (tracked) {
@@ -183,7 +188,7 @@ Outcome SlamSession::End(Outcome outcome) {
   }
   if (outcome.done()) {
     run.status = "done";
-    run.message = "all frames taken in";
+    run.message = "all frames processed";
   }
   const Status status = WriteResults(run);
   if (!status.ok()) return Outcome::BadInput(status);
@@ -227,7 +232,7 @@ Status SlamSession::WriteCheckpoint() {
   writer.Text("frames_key", &frames);
   ExchangeProgress(&writer);
   output_->Save(&writer);
-  // Last: what it tells of is there.
+  // The checkpoint is written last, so that everything to which it refers exists.
   return WriteFileAtomically(output_->Path(kCheckpointName), writer.TakeBytes());
 }
 
@@ -246,26 +251,29 @@ Outcome SlamSession::Resume(const std::string& path) {
   archive->Text("frames_key", &frames);
   archive->Value("next", &next_);
   if (!archive->status().ok()) return bad(archive->status());
+  // Check that the checkpoint belongs to this run and this sequence.
   if (flags != settings_.fixed_flags) {
     return Outcome::Usage("--resume with " + FirstDifference(settings_.fixed_flags, flags) +
                           " as in " + path);
   }
   if (next_ < 1 || next_ > sequence_.num_frames()) {
-    return bad(Status::Error("is " + std::to_string(next_) + " frames ahead, expected at most " +
-                             std::to_string(sequence_.num_frames()) + " as in the sequence"));
+    return bad(Status::Error("was written after " + std::to_string(next_) +
+                             " frames, expected 1 to " + std::to_string(sequence_.num_frames()) +
+                             " as in the sequence"));
   }
   const StatusOr<DepthFrame> last = sequence_.Load(next_ - 1);
   depth_key_ = last.ok() ? Fingerprint(last->depth) : "";
   if (frames != FramesKey()) {
-    return bad(Status::Error("is of another sequence, expected " + settings_.input));
+    return bad(Status::Error("belongs to another sequence, expected " + settings_.input));
   }
+  // Restore the state, and continue the files.
   ExchangeProgress(archive);
   if (!archive->status().ok()) return bad(archive->status());
   if (strategy != settings_.strategy_flags) {
     warnings_->Add("resume",
-                   "went on after frame " + std::to_string(sequence_.frame_number(next_ - 1)) +
+                   "continued after frame " + std::to_string(sequence_.frame_number(next_ - 1)) +
                        " with " + FirstDifference(settings_.strategy_flags, strategy) +
-                       " for the bytes of one run");
+                       " for the same bytes as without the interruption");
   }
   if (tracked_.size() > 0) points_.clear();
   StatusOr<std::unique_ptr<SlamOutput>> output =

@@ -1,4 +1,4 @@
-// A run over the frames of a sequence, from the first one or from a checkpoint.
+// A run over the frames of a sequence, which begins at the first frame or at a checkpoint.
 #ifndef CERES_ED_PIPELINE_SLAM_SLAM_SESSION_H_
 #define CERES_ED_PIPELINE_SLAM_SLAM_SESSION_H_
 
@@ -22,10 +22,10 @@
 
 namespace ceres_ed {
 
-// Reads, tracks and writes frame by frame. What it refers to must outlive it.
+// Reads, tracks and writes frame by frame. The objects to which it refers must outlive it.
 class SlamSession {
  public:
-  // `clock` runs since the start of the program.
+  // `clock` must have been started with the program.
   SlamSession(const SlamSettings& settings,
               const DepthSequence& sequence,
               const EnergyRegistry& registry,
@@ -42,31 +42,33 @@ class SlamSession {
         observer_(observer),
         clock_(clock) {}
 
-  // Opens the output folder, or, to resume, goes back to where its checkpoint stands. `points` are
-  // to be followed. Anything but done ends the run.
+  // Opens the output folder or, to resume, returns to the state of its checkpoint. `points` are the
+  // points to follow. The run ends unless the outcome is done.
   Outcome Start(std::vector<NamedPoint> points);
 
-  // Takes all frames in and writes everything.
+  // Processes all frames and writes the results.
   Outcome Run();
 
  private:
-  // Takes the frames that are left, until one ends the run.
+  // Processes the remaining frames until one ends the run.
   Outcome TakeFrames();
-  // Reads the next frame, takes it in and writes its row.
+  // Reads and processes the next frame, and writes its row.
   Outcome TakeFrame();
+  // Stores the fingerprint of the depth, and warns if the first depth image has an unlikely range.
   void CheckDepth(const DepthImage& depth);
+  // Tracks the frame, fills in its record, and writes everything but its row.
   Outcome Track(const DepthFrame& frame, int index, FrameRecord* record);
-  // Writes everything as it is and returns how the run ended.
+  // Writes the results and returns how the run ended.
   Outcome End(Outcome outcome);
   SlamRun MakeRun() const;
   Status WriteResults(const SlamRun& run) const;
 
   Status WriteCheckpoint();
   Outcome Resume(const std::string& path);
-  // What a checkpoint's sequence must have in common with this one: the camera, the numbers of the
-  // frames that are behind us, and the depth of the last of them.
+  // Returns what the sequence of a checkpoint must have in common with this one: the camera, the
+  // numbers of the processed frames, and the depth of the last of them.
   std::string FramesKey() const;
-  // Saves what goes on from frame to frame, but the files, or loads it.
+  // Saves or loads everything that is kept from frame to frame, except the files.
   void ExchangeProgress(CheckpointArchive* archive);
 
   const SlamSettings& settings_;
@@ -78,16 +80,17 @@ class SlamSession {
   SlamObserver* observer_;
   const Timer& clock_;
   std::unique_ptr<SlamOutput> output_;
-  // Until there is a map to bind them to.
+  // The points to follow, until there is a map to which they are bound.
   std::vector<NamedPoint> points_;
   TrackedPoints tracked_;
   std::vector<FrameRecord> records_;
-  // Index of the next frame.
+  // The index of the next frame.
   int next_ = 0;
-  // The fingerprint of the last frame's depth; empty if that could not be read.
+  // The fingerprint of the last frame's depth; empty if the frame could not be read.
   std::string depth_key_;
-  // Why the run was stopped early, as reports have it.
+  // The reason for an early end, as reports have it.
   std::string stop_status_;
+  // The time of the earlier parts of a resumed run.
   double seconds_before_ = 0.0;
   bool depth_checked_ = false;
 };

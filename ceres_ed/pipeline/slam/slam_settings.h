@@ -1,4 +1,4 @@
-// What tracking of a sequence on disk is asked to do.
+// The settings of the tracking of a sequence on disk.
 #ifndef CERES_ED_PIPELINE_SLAM_SLAM_SETTINGS_H_
 #define CERES_ED_PIPELINE_SLAM_SLAM_SETTINGS_H_
 
@@ -11,31 +11,32 @@
 
 namespace ceres_ed {
 
-// Paths are empty where a file is not given.
+// A path is empty if the file is not given.
 struct SlamSettings {
   SlamOptions options;
   SequenceOptions sequence;
   // The folder of the sequence.
   std::string input;
-  // The folder to write.
+  // The folder that is written.
   std::string output;
-  // A PLY of points to follow, in the camera frame of the first frame, metres.
+  // A PLY file of points to follow, in the camera frame of the first frame, in metres.
   std::string track;
-  // Shared objects with more energies, several with ";" between them.
+  // Shared objects with more energies, separated by ";".
   std::string plugin;
-  // Every n-th frame leaves a live cloud, or a checkpoint; 0 = none.
+  // A live cloud is written every `live_every` frames, and a checkpoint every `checkpoint_every`
+  // frames; 0 = never.
   int live_every = 1;
   int checkpoint_every = 10;
-  // Whether to go on from the checkpoint in `output`, if there is one.
+  // Whether the run continues from the checkpoint in `output`, if there is one.
   bool resume = false;
-  // Whether to replace a finished result that is in `output`.
+  // Whether a finished result in `output` is replaced.
   bool overwrite = false;
-  // Seconds.
+  // The time limit in seconds.
   double time_limit_s = std::numeric_limits<double>::infinity();
-  // For the report.
+  // The flags of the program, for the report.
   RunFlags flags;
-  // A line `--name=value` for each flag that a run must be resumed with as it was, and for each
-  // that says how the levels are solved: these may change on the way, the map is the same in kind.
+  // Lines `--name=value`: the flags that must not change when a run is resumed, and the flags that
+  // say how the levels are solved. The latter may change, since the map remains of the same kind.
   std::string fixed_flags;
   std::string strategy_flags;
 };

@@ -1,4 +1,4 @@
-// Warnings of a run, each told once.
+// The warnings of a run, each of which is shown once.
 #ifndef CERES_ED_PIPELINE_SLAM_WARNING_LOG_H_
 #define CERES_ED_PIPELINE_SLAM_WARNING_LOG_H_
 
@@ -11,17 +11,17 @@
 
 namespace ceres_ed {
 
-// Hands warnings to an observer as they come, and keeps them for the report. Of one kind only the
-// first few: a sequence may have a thousand damaged files.
+// Passes warnings to an observer when they occur, and keeps them for the report. Only the first few
+// of a kind are kept, because a sequence may have a thousand damaged files.
 class WarningLog {
  public:
   // `observer` must outlive this.
   explicit WarningLog(RunObserver* observer) : observer_(observer) {}
 
-  // A sentence that is there already is not told again.
+  // Adds a warning, unless the same sentence has been added before.
   void Add(const std::string& kind, const std::string& sentence);
 
-  // Takes over what an earlier part of the run has told.
+  // Restores the warnings of the earlier part of a run.
   void Restore(std::vector<std::string> sentences) { sentences_ = std::move(sentences); }
 
   const std::vector<std::string>& sentences() const { return sentences_; }
