@@ -20,18 +20,19 @@ std::string ShapeOf(const py::array& array) {
   return "(" + shape + (array.ndim() == 1 ? ",)" : ")");
 }
 
-// What numpy makes of an object; ValueError where the dtype is not of `kinds`.
+// Returns the array that numpy makes of an object. Raises a ValueError if its dtype is not among
+// `kinds`.
 py::array ArrayOf(const py::handle& object,
                   const std::string& what,
                   const char* kinds,
                   const char* expected) {
   py::array array = py::array::ensure(object);
-  // numpy wraps a thing that it cannot look into as one object.
+  // numpy makes an array of a single object from anything that it does not understand.
   if (!array || (array.ndim() == 0 && array.dtype().kind() == 'O')) {
     throw py::value_error(what + " is " + std::string(py::str(py::type::of(object))) +
                           ", expected an array of " + expected);
   }
-  // An empty list is an array of floats, whatever it is a list of.
+  // An empty list becomes an array of floats, so its dtype is not checked.
   if (array.size() > 0 && std::strchr(kinds, array.dtype().kind()) == nullptr) {
     throw py::value_error(what + " is an array of " + std::string(py::str(array.dtype())) +
                           ", expected " + expected);
@@ -69,7 +70,7 @@ std::vector<Eigen::Vector3d> ToPoints(const py::handle& object, const std::strin
   if (points.empty()) return points;
   std::copy_n(array.data(), 3 * points.size(), points.front().data());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // False of what is not a number, too.
+    // The comparison is false for NaN, too.
     if ((points[i].array().abs() <= kMaxCoordinate).all()) continue;
     std::ostringstream message;
     message << what << " has [" << points[i].transpose() << "] in row " << i
@@ -122,7 +123,7 @@ std::vector<std::array<int, 3>> ToTriangles(const py::handle& object,
   const std::size_t dropped = static_cast<std::size_t>(array.shape(0)) - triangles.size();
   if (dropped > 0) {
     const std::string text =
-        what + ": " + std::to_string(dropped) + " with a repeated corner left out";
+        what + ": left out " + std::to_string(dropped) + " with a repeated corner";
     if (PyErr_WarnEx(PyExc_UserWarning, text.c_str(), 1) != 0) throw py::error_already_set();
   }
   return triangles;
@@ -165,7 +166,7 @@ Similarity ToSimilarity(const py::handle& object, const std::string& what, bool 
   Similarity similarity;
   similarity.scale = with_scale ? std::cbrt(determinant) : 1.0;
   const Eigen::Matrix3d R = scaled / similarity.scale;
-  // Poses of files and sensors have few digits.
+  // Poses in files and from sensors have few digits.
   constexpr double kTolerance = 1e-3;
   const bool is_rigid = matrix.allFinite() && determinant > 0.0 &&
                         (R * R.transpose()).isIdentity(kTolerance) &&

@@ -1,4 +1,5 @@
-// Arrays of numpy to vectors of the library, and vectors to arrays that share their memory.
+// Converts arrays of numpy to vectors of the library, and makes arrays that share the memory of
+// vectors.
 #ifndef CERES_ED_PYTHON_ARRAYS_H_
 #define CERES_ED_PYTHON_ARRAYS_H_
 
@@ -17,43 +18,46 @@ namespace ceres_ed::python {
 
 namespace py = pybind11;
 
-// What is not there: None.
+// Returns whether the object is missing or None.
 inline bool IsNone(const py::handle& object) { return !object || object.is_none(); }
 
-// `object`, whatever numpy makes an array of, as C-contiguous doubles: itself where it is that
-// already, else a copy. ValueError, naming `what`, unless it holds numbers.
+// Returns `object`, which may be anything from which numpy makes an array, as C-contiguous doubles:
+// the array itself if it is one already, otherwise a copy. Raises a ValueError that names `what` if
+// it does not contain real numbers.
 py::array_t<double, py::array::c_style> Doubles(const py::handle& object, const std::string& what);
 
-// Points from (N, 3) numbers. ValueError, naming `what` and the row, on another shape or on a
-// number that is not finite.
+// Returns points from (N, 3) numbers. Raises a ValueError that names `what` for another shape or
+// type, and one that also names the row for a coordinate that is not finite (see kMaxCoordinate).
 std::vector<Eigen::Vector3d> ToPoints(const py::handle& object, const std::string& what);
 
-// Normals from (num_points, 3) numbers: brought to unit length, zero where they are not finite.
+// Returns normals from (num_points, 3) numbers, scaled to unit length. A normal that is zero or not
+// finite becomes zero.
 std::vector<Eigen::Vector3d> ToNormals(const py::handle& object,
                                        std::size_t num_points,
                                        const std::string& what);
 
-// Triangles from (M, 3) integers in [0, num_points). Those that name a point twice are left out
-// with a UserWarning, as they are of files.
+// Returns triangles from (M, 3) integers in [0, num_points). As when a file is read, triangles that
+// use a point twice are left out, with a UserWarning.
 std::vector<std::array<int, 3>> ToTriangles(const py::handle& object,
                                             std::size_t num_points,
                                             const std::string& what);
 
-// Integers from (N,); ranges are the library's question.
+// Returns integers >= 0 from (N,) integers. The library checks that they are not too large.
 std::vector<int> ToIndices(const py::handle& object, const std::string& what);
 
-// A similarity as a 4 x 4 matrix, and back. ValueError unless it is [s R, t; 0 0 0 1] with a
-// rotation R and s > 0 (s = 1 unless `with_scale`).
+// Convert a similarity to a 4 x 4 matrix, and back. ToSimilarity() raises a ValueError unless the
+// matrix is [s R, t; 0 0 0 1] with a rotation R and s > 0 (s = 1 unless `with_scale`).
 py::array ToMatrix(const Similarity& similarity);
 Similarity ToSimilarity(const py::handle& object, const std::string& what, bool with_scale);
 
-// An array on `rows` rows of `columns` numbers at `data`, which `owner` keeps alive.
+// Returns an array that shows `rows` rows of `columns` numbers at `data`, which `owner` keeps
+// alive.
 template <typename T>
 py::array View(T* data, std::size_t rows, std::size_t columns, const py::handle& owner) {
   return py::array_t<T>({rows, columns}, {columns * sizeof(T), sizeof(T)}, data, owner);
 }
 
-// (N, 3) on points, and on triangles, of `owner`.
+// Return (N, 3) arrays that show the points or triangles of `owner`.
 inline py::array View(std::vector<Eigen::Vector3d>& points, const py::handle& owner) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points have gaps");
   return View(reinterpret_cast<double*>(points.data()), points.size(), 3, owner);
@@ -62,27 +66,27 @@ inline py::array View(std::vector<std::array<int, 3>>& triangles, const py::hand
   return View(reinterpret_cast<int*>(triangles.data()), triangles.size(), 3, owner);
 }
 
-// The same, or None where there is nothing.
+// Does the same, or returns None if there are no rows.
 template <typename Row>
 py::object ViewOrNone(std::vector<Row>& rows, const py::handle& owner) {
   if (rows.empty()) return py::none();
   return View(rows, owner);
 }
 
-// An object that keeps `value` alive, for arrays on it.
+// Returns `value` on the heap, and an object that keeps it alive for the arrays that show it.
 template <typename T>
 std::pair<T*, py::capsule> Keep(T value) {
   T* kept = new T(std::move(value));
   return {kept, py::capsule(kept, [](void* pointer) { delete static_cast<T*>(pointer); })};
 }
 
-// (N, 3) on points that were handed over.
+// Returns an (N, 3) array that owns `points`.
 inline py::array OwnedView(std::vector<Eigen::Vector3d> points) {
   const auto [kept, owner] = Keep(std::move(points));
   return View(*kept, owner);
 }
 
-// Marks an array as one to look at: what is written to it would go nowhere.
+// Makes an array read-only. It is used for copies: a value that is written to one would be lost.
 inline py::array ReadOnly(py::array array) {
   array.attr("flags").attr("writeable") = false;
   return array;

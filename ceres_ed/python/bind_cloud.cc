@@ -1,4 +1,4 @@
-// Surfaces in memory and in PLY files.
+// Binds surfaces, in memory and in files.
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/bindings.h>
@@ -78,32 +78,33 @@ std::string Describe(const Cloud& cloud) {
 void BindCloud(py::module_& module) {
   py::class_<Cloud>(module, "Cloud", R"(Points with optional triangles and normals.
 
-Wherever a surface is asked for, these will do, too: an (N, 3) array of points, a pair (points,
-triangles), a mesh or cloud of trimesh or Open3D, a FitResult. Lengths are in the unit of the input.)")
+A function that takes a surface also accepts an (N, 3) array of points, a pair (points,
+triangles), a mesh or cloud of trimesh or Open3D, and a FitResult. Lengths are in the unit of the
+input.)")
       .def(py::init(&MakeCloud),
            py::arg("points"),
            py::arg("triangles") = py::none(),
            py::arg("normals") = py::none(),
            R"(Copies `points` (N, 3) or any other surface, `triangles` (M, 3), `normals` (N, 3).
 
-Normals are brought to unit length. ValueError on other shapes, on coordinates that are not finite,
-and on triangles that name points that are not there.)")
+Normals are scaled to unit length. Raises a ValueError for other shapes, for coordinates that are
+not finite, and for triangles with an index that is out of range.)")
       .def_property_readonly(
           "points",
           [](const py::object& self) { return View(self.cast<Cloud&>().cloud.points, self); },
-          "(N, 3) float64, a view.")
+          "The points, (N, 3) float64; a view.")
       .def_property_readonly(
           "triangles",
           [](const py::object& self) {
             return ViewOrNone(self.cast<Cloud&>().cloud.triangles, self);
           },
-          "(M, 3) int32, a view; None of bare points.")
+          "The triangles, (M, 3) int32; a view. None for bare points.")
       .def_property_readonly(
           "normals",
           [](const py::object& self) {
             return ViewOrNone(self.cast<Cloud&>().cloud.normals, self);
           },
-          "(N, 3) float64 of unit length, a view; None where there are none.")
+          "The normals of unit length, (N, 3) float64; a view. None if there are none.")
       .def_property_readonly(
           "warnings",
           [](const Cloud& self) {
@@ -113,10 +114,10 @@ and on triangles that name points that are not there.)")
       .def("__len__", [](const Cloud& self) { return self.cloud.size(); })
       .def("__repr__", &Describe);
 
-  module.def("load", &Load, py::arg("path"), R"(Returns the Cloud of a PLY file.
+  module.def("load", &Load, py::arg("path"), R"(Returns the Cloud in a file.
 
-OSError where it can't be read; ValueError, naming file, place and what was expected, where it is no
-such file.)");
+Raises an OSError if the file can't be read, and a ValueError that names the file, the place and
+what was expected if its contents can't be used.)");
   module.def("save",
              &Save,
              py::arg("path"),
@@ -124,11 +125,11 @@ such file.)");
              py::kw_only(),
              py::arg("like") = nullptr,
              py::arg("double_precision") = false,
-             R"(Writes `surface` as a PLY; the file appears whole or not at all.
+             R"(Writes `surface` to a file. The file is written completely or not at all.
 
-Of a Cloud that was loaded, or with `like`, such a Cloud of as many points, everything else of its
-file is kept: order, faces, colours, every extra property, types. OSError where it can't be
-written.)");
+If `surface` is a Cloud that was loaded, or if such a Cloud with as many points is given as
+`like`, everything else in its file is kept: order, faces, colours, all other properties, and
+types. Raises an OSError if the file can't be written.)");
 }
 
 }  // namespace ceres_ed::python

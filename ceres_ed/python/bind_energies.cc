@@ -1,4 +1,4 @@
-// Energies by name and parameters, and the shared objects that bring more of them.
+// Binds energies with their parameters, and the shared objects that add more of them.
 #include <ceres_ed/energy/energy.h>
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/plugin/plugin_loader.h>
@@ -82,7 +82,7 @@ void BindInfo(py::module_& module) {
           "type",
           [](const EnergyParameter& self) { return TypeName(self.type); },
           "'real', 'integer' or 'flag' (0 or 1).")
-      .def_readonly("unit", &EnergyParameter::unit, "'-' where it has none.")
+      .def_readonly("unit", &EnergyParameter::unit, "The unit; '-' if there is none.")
       .def_readonly("minimum", &EnergyParameter::minimum)
       .def_readonly("maximum", &EnergyParameter::maximum)
       .def_readonly("default", &EnergyParameter::default_value)
@@ -90,15 +90,15 @@ void BindInfo(py::module_& module) {
       .def("__repr__", [](const EnergyParameter& self) {
         return "<ceres_ed.EnergyParameter " + self.name + ": " + self.doc + ">";
       });
-  py::class_<EnergyInfo>(module, "EnergyInfo", "What is known of an energy.")
+  py::class_<EnergyInfo>(module, "EnergyInfo", "The description of an energy.")
       .def_readonly("name", &EnergyInfo::name)
-      .def_readonly("summary", &EnergyInfo::summary, "What it wants, in one line.")
-      .def_readonly("equation", &EnergyInfo::equation, "The residual.")
-      .def_readonly("unit", &EnergyInfo::unit, "Of the residual.")
+      .def_readonly("summary", &EnergyInfo::summary, "What the energy aims at, in one line.")
+      .def_readonly("equation", &EnergyInfo::equation, "The residual as an equation.")
+      .def_readonly("unit", &EnergyInfo::unit, "The unit of the residual.")
       .def_property_readonly(
           "is_observation",
           [](const EnergyInfo& self) { return self.kind == EnergyKind::kObservation; },
-          "Whether it makes the nodes that it reaches point relevant; a prior does not.")
+          "Whether the nodes on which it depends become point relevant. A prior does not do this.")
       .def_readonly("parameters", &EnergyInfo::parameters)
       .def("__repr__", [](const EnergyInfo& self) {
         return "<ceres_ed.EnergyInfo " + self.name + ": " + self.summary + ">";
@@ -133,32 +133,39 @@ EnergyRegistry MakeRegistry(const py::object& plugins) {
 
 void BindEnergies(py::module_& module) {
   const EnergySpec defaults;
-  py::class_<EnergySpec>(module, "Energy", "One more energy to add to an objective.")
+  py::class_<EnergySpec>(module, "Energy", "An energy that is added to an objective.")
       .def(py::init(&MakeEnergy),
            py::arg("name"),
            py::arg("weight") = defaults.weight,
            py::arg("loss") = NameOf(defaults.loss.type),
            py::arg("loss_width") = defaults.loss.width,
-           R"(An energy of list_energies() with its parameters as keywords; the rest have defaults.
+           R"(Takes the name of an energy, and its parameters as keywords.
+
+list_energies() describes the energies. Parameters that are not given have defaults.
 
 Args:
-  weight: >= 0, no unit.
-  loss: robust loss: squared huber cauchy tukey welsch geman_mcclure.
-  loss_width: residual, in its unit, at which the loss begins to give way, > 0.)")
+  name: the name of the energy.
+  weight: >= 0, without unit.
+  loss: the robust loss: squared, huber, cauchy, tukey, welsch or geman_mcclure.
+  loss_width: the size of the residual, in its unit, above which the loss reduces its influence,
+    > 0.)")
       .def_readonly("name", &EnergySpec::name)
       .def_readonly("weight", &EnergySpec::weight)
       .def_property_readonly("loss", [](const EnergySpec& self) { return NameOf(self.loss.type); })
       .def_property_readonly("loss_width", [](const EnergySpec& self) { return self.loss.width; })
-      .def_readonly("parameters", &EnergySpec::parameters, "Those that were given, by name.")
+      .def_readonly(
+          "parameters", &EnergySpec::parameters, "The parameters that were given, by name.")
       .def("__repr__", &Describe);
   BindInfo(module);
-  module.def("list_energies",
-             &ListEnergies,
-             py::arg("plugin") = py::none(),
-             R"(Returns an EnergyInfo for each energy of the library, and of `plugin`, by name.
+  module.def(
+      "list_energies",
+      &ListEnergies,
+      py::arg("plugin") = py::none(),
+      R"(Returns an EnergyInfo for each energy of the library and of `plugin`, sorted by name.
 
-`plugin` is the path of a shared object (ceres_ed/plugin/plugin_abi.h), or a list of them. OSError
-where one can't be read, ValueError where it is no plugin or was built against another version.)");
+`plugin` is the path of a shared object (ceres_ed/plugin/plugin_abi.h), or a list of paths.
+Raises an OSError if one can't be read, and a ValueError if it is not a plugin or was built for
+another version.)");
 }
 
 }  // namespace ceres_ed::python

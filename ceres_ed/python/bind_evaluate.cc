@@ -1,4 +1,4 @@
-// How good a fit is.
+// Binds the evaluation of a fit.
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/errors.h>
@@ -35,27 +35,33 @@ Evaluation EvaluateSurfaces(const py::object& result_object,
 
 void BindStatistics(py::module_& module) {
   using S = DistanceStatistics;
-  py::class_<S>(module, "DistanceStatistics", "Figures of a set of distances, input's unit.")
+  py::class_<S>(
+      module, "DistanceStatistics", "Statistics of a set of distances, in the unit of the input.")
       .def_readonly("mean", &S::mean)
       .def_readonly("rms", &S::rms)
       .def_readonly("p50", &S::p50, "The median.")
       .def_readonly("p95", &S::p95)
       .def_readonly("max", &S::max)
-      .def_readonly("trimmed", &S::trimmed, "Mean of the smallest 80 %.")
-      .def(
-          "in_percent_of", &S::InPercentOf, py::arg("diagonal"), "The same in percent of a length.")
+      .def_readonly("trimmed", &S::trimmed, "The mean of the smallest 80 %.")
+      .def("in_percent_of",
+           &S::InPercentOf,
+           py::arg("diagonal"),
+           "Returns the statistics in percent of a length.")
       .def("__repr__", [](const S& self) {
         return "<ceres_ed.DistanceStatistics mean " + std::to_string(self.mean) + ", p95 " +
                std::to_string(self.p95) + ", max " + std::to_string(self.max) + ">";
       });
   using C = ShapeChange;
-  py::class_<C>(module, "ShapeChange", "What became of the source's edges and triangles.")
-      .def_readonly("edge_mean", &C::edge_mean, "Of |l' / l - 1| over all edges, no unit.")
+  py::class_<C>(module, "ShapeChange", "The change of the source's edges and triangles.")
+      .def_readonly(
+          "edge_mean", &C::edge_mean, "The mean of |l' / l - 1| over all edges, without unit.")
       .def_readonly("edge_p95", &C::edge_p95)
       .def_readonly("edge_p99", &C::edge_p99)
-      .def_readonly("edges", &C::edges, "How many.")
-      .def_readonly("flipped", &C::flipped, "Triangles that turned over.")
-      .def_readonly("degenerate", &C::degenerate, "Triangles with less than 5 % of their area.");
+      .def_readonly("edges", &C::edges, "The number of edges.")
+      .def_readonly("flipped", &C::flipped, "The number of triangles that turned over.")
+      .def_readonly("degenerate",
+                    &C::degenerate,
+                    "The number of triangles with less than 5 % of their area.");
 }
 
 }  // namespace
@@ -63,21 +69,32 @@ void BindStatistics(py::module_& module) {
 void BindEvaluate(py::module_& module) {
   BindStatistics(module);
   using E = Evaluation;
-  py::class_<E>(module, "Evaluation", "What evaluate() measures. Lengths in the input's unit.")
-      .def_readonly("diagonal", &E::diagonal, "Of the target's bounding box.")
-      .def_readonly("forward", &E::forward, "Result's points to the target's surface.")
-      .def_readonly("backward", &E::backward, "Target's points to the result's surface.")
-      .def_readonly("symmetric", &E::symmetric, "The average of both.")
-      .def_readonly("nearest_forward", &E::nearest_forward, "Result's to the target's points.")
-      .def_readonly("nearest_backward", &E::nearest_backward, "Target's to the result's points.")
+  py::class_<E>(
+      module, "Evaluation", "What evaluate() measures. Lengths are in the unit of the input.")
+      .def_readonly("diagonal", &E::diagonal, "The diagonal of the target's bounding box.")
+      .def_readonly(
+          "forward", &E::forward, "Distances from the result's points to the target's surface.")
+      .def_readonly(
+          "backward", &E::backward, "Distances from the target's points to the result's surface.")
+      .def_readonly("symmetric", &E::symmetric, "Both directions together.")
+      .def_readonly("nearest_forward",
+                    &E::nearest_forward,
+                    "Distances from the result's points to the nearest points of the target.")
+      .def_readonly("nearest_backward",
+                    &E::nearest_backward,
+                    "Distances from the target's points to the nearest points of the result.")
       .def_readonly("point_to_plane",
                     &E::point_to_plane,
-                    "Mean distance to the planes of the nearest points; None without normals.")
+                    "The mean distance to the planes of the nearest points; None without normals "
+                    "or triangles.")
       .def_readonly("normal_error_deg",
                     &E::normal_error_deg,
-                    "Mean angle to the normals there, degrees; None without normals.")
-      .def_readonly("truth", &E::truth, "To each point's true place; None without a truth.")
-      .def_readonly("shape", &E::shape, "A ShapeChange; None without a source.");
+                    "The mean angle to the normals of these points in degrees; None unless both "
+                    "surfaces have normals or triangles.")
+      .def_readonly("truth",
+                    &E::truth,
+                    "Distances from the points to their true positions; None without a truth.")
+      .def_readonly("shape", &E::shape, "The change of the mesh; None without a source.");
   module.def("evaluate",
              &EvaluateSurfaces,
              py::arg("result"),
@@ -86,9 +103,10 @@ void BindEvaluate(py::module_& module) {
              py::arg("source") = py::none(),
              R"(Returns the Evaluation of `result` against `target`.
 
-All are surfaces (see Cloud). `truth` has the true places of the result's points, and `source` (of a
-FitResult its own, unless given) where they came from, in the same order. ValueError on a surface
-without points and on unequal counts.)");
+All arguments are surfaces (see Cloud). `truth` has the true positions of the result's points, and
+`source` their positions before the fit, both in the same order. For a FitResult, the default of
+`source` is its own source. Raises a ValueError for a surface without points and for unequal numbers
+of points.)");
 }
 
 }  // namespace ceres_ed::python

@@ -1,4 +1,4 @@
-// fit() and what it returns.
+// Binds fit() and its result.
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/callbacks.h>
@@ -17,7 +17,7 @@
 namespace ceres_ed::python {
 namespace {
 
-// From {source point: (x, y, z)}, or a pair (source points, positions).
+// Returns landmarks from {source point: (x, y, z)} or from a pair (source points, positions).
 std::vector<Landmark> ToLandmarks(const py::object& object) {
   std::vector<Landmark> landmarks;
   if (object.is_none()) return landmarks;
@@ -38,7 +38,7 @@ std::vector<Landmark> ToLandmarks(const py::object& object) {
   const std::vector<Eigen::Vector3d> places = ToPoints(positions, "landmarks' positions");
   if (places.size() != points.size()) {
     throw py::value_error("landmarks: " + std::to_string(points.size()) + " source points and " +
-                          std::to_string(places.size()) + " positions, expected as many");
+                          std::to_string(places.size()) + " positions, expected equal numbers");
   }
   for (std::size_t i = 0; i < points.size(); ++i) landmarks.push_back({points[i], places[i]});
   return landmarks;
@@ -59,7 +59,7 @@ StatusOr<FitResult> FitWithoutLock(const FitInput& input,
   return Fit(input, options, registry);
 }
 
-// One parameter for each of Python's. NOLINTNEXTLINE(readability-function-size)
+// The function has one parameter for each of Python's. NOLINTNEXTLINE(readability-function-size)
 std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
                                            const py::object& target,
                                            const py::object& landmarks,
@@ -86,7 +86,7 @@ std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
   callbacks.Rethrow();
   fitted->result = ValueOrThrow(std::move(result));
   if (!fitted->result.IsUsable()) throw std::runtime_error(fitted->result.message);
-  // Nothing of the target is asked for again.
+  // The target is not needed any more.
   input.target = PointCloud();
   return fitted;
 }
@@ -133,7 +133,7 @@ py::array PointRelevant(const py::object& self) {
 
 using ResultClass = py::class_<FittedSurface>;
 
-// A number of the result, with its text.
+// Adds a number of the result with its docstring.
 template <typename Get>
 void AddNumber(ResultClass* result, const char* name, Get get, const char* doc) {
   result->def_property_readonly(
@@ -147,13 +147,13 @@ void BindArrays(ResultClass* result) {
           [](const py::object& self) {
             return View(self.cast<FittedSurface&>().result.points, self);
           },
-          "(N, 3) float64, the source in the target's frame and unit; a view.")
+          "The deformed source in the target's frame and unit, (N, 3) float64; a view.")
       .def_property_readonly(
           "normals",
           [](const py::object& self) {
             return ViewOrNone(self.cast<FittedSurface&>().result.normals, self);
           },
-          "(N, 3) float64 of the fitted source, a view; None where the source has none.")
+          "The normals of the deformed source, (N, 3) float64; a view. None if it has none.")
       .def_property_readonly(
           "std_dev",
           [](const py::object& self) -> py::object {
@@ -163,26 +163,29 @@ void BindArrays(ResultClass* result) {
             return py::array_t<double>(
                 static_cast<py::ssize_t>(deviations.size()), deviations.data(), self);
           },
-          "(N,) float64, standard deviation of each point in the source's unit, a view; NaN where\n"
-          "nothing says where it is. None without covariance=True.")
+          "The standard deviation of each point in the source's unit, (N,) float64; a view. NaN if "
+          "the data do not determine it. None without covariance=True.")
       .def_property_readonly(
           "triangles",
           [](const py::object& self) {
             return ViewOrNone(self.cast<FittedSurface&>().input.source.triangles, self);
           },
-          "(M, 3) int32 of the source, a view; None of bare points.")
+          "The triangles of the source, (M, 3) int32; a view. None for bare points.")
       .def_property_readonly(
           "warp",
           [](FittedSurface& self) -> Warp& { return self.result.warp; },
           py::return_value_policy::reference_internal,
-          "The Warp that takes any cloud of the source's frame to the target's.")
-      .def_property_readonly("graph", &GraphOf, "The Graph, source frame and unit.")
+          "The Warp, which maps any cloud in the source's frame to the target's frame.")
+      .def_property_readonly("graph", &GraphOf, "The Graph, in the source's frame and unit.")
       .def_property_readonly(
           "rigid",
           [](const FittedSurface& self) { return ToMatrix(self.result.rigid); },
-          "(4, 4) [s R, T; 0 0 0 1], target from source: where the source stood before it bent.")
+          "(4, 4) [s R, T; 0 0 0 1], target from source: the rigid placement before the "
+          "deformation.")
       .def_property_readonly(
-          "point_relevant", &PointRelevant, "(nodes,) bool: nodes that an observation touched.");
+          "point_relevant",
+          &PointRelevant,
+          "(nodes,) bool: whether an observation depended on the node in the last round.");
 }
 
 void BindNumbers(ResultClass* result) {
@@ -190,70 +193,72 @@ void BindNumbers(ResultClass* result) {
   result->def_property_readonly(
       "status",
       [](const FittedSurface& self) { return NameOf(self.result.status); },
-      "'converged', 'max_iterations', 'time_limit' or 'interrupted'; of the last two `points` are "
-      "the best so far.");
+      "'converged', 'max_iterations', 'time_limit' or 'interrupted'. After the last two, `points` "
+      "are the best result so far.");
   AddNumber(
-      result, "message", [](const R& r) { return r.message; }, "How it ended.");
+      result, "message", [](const R& r) { return r.message; }, "A sentence on how the fit ended.");
   AddNumber(
       result,
       "inliers",
       [](const R& r) { return r.matches.inliers; },
-      "Matches of the last round that were believed.");
+      "The number of accepted matches in the last round.");
   AddNumber(
       result,
       "rms_point_to_plane",
       [](const R& r) { return r.matches.rms_plane; },
-      "Of the matches, target unit.");
+      "The root mean square point-to-plane distance of the matches, in the target's unit.");
   AddNumber(
       result,
       "rms_point_to_point",
       [](const R& r) { return r.matches.rms_point; },
-      "Of the matches, target unit.");
+      "The root mean square point-to-point distance of the matches, in the target's unit.");
   AddNumber(
       result,
       "initial_energy",
       [](const R& r) { return r.initial_energy.Total(); },
-      "The objective at the start of the last round, no unit.");
+      "The objective at the start of the last round, without unit.");
   AddNumber(
       result,
       "final_energy",
       [](const R& r) { return r.final_energy.Total(); },
-      "The objective at the end, no unit.");
+      "The objective at the end, without unit.");
   result->def_property_readonly(
-      "terms", &Terms, "Of final_energy, a dict for each energy: name, weighted, raw, residuals.");
+      "terms",
+      &Terms,
+      "The parts of final_energy, a dict for each energy: name, weighted, raw, residuals.");
   AddNumber(
       result,
       "outer_iterations",
       [](const R& r) { return r.outer_iterations; },
-      "Rounds of matching and solving.");
+      "The number of rounds of matching and solving.");
   AddNumber(
       result,
       "solver_iterations",
       [](const R& r) { return r.solver_iterations; },
-      "Iterations of the solver in all of them.");
+      "The number of iterations of the solver in all rounds.");
   AddNumber(
       result,
       "max_fixed_error",
       [](const R& r) { return r.max_fixed_error; },
-      "Largest distance of a fixed point from its place, target unit.");
+      "The largest distance of a fixed point from its position, in the target's unit.");
   AddNumber(
       result,
       "rigid_only",
       [](const R& r) { return r.rigid_only; },
-      "Whether the deformation explained less than the rigid motion, and was left out.");
+      "Whether the deformation was discarded because it explained less than the rigid placement.");
   AddNumber(
       result,
       "noise",
       [](const R& r) { return r.noise; },
-      "Standard deviation of the target's noise, in its unit.");
+      "The standard deviation of the target's noise, in its unit.");
   AddNumber(
       result,
       "unfolded",
       [](const R& r) { return r.unfolded; },
-      "Faces that were folded over and were laid flat in the end.");
+      "The number of faces that were folded over and have been laid flat.");
   AddNumber(
-      result, "warnings", [](const R& r) { return r.warnings; }, "A sentence each.");
-  result->def_property_readonly("times", &Times, "Seconds by stage.");
+      result, "warnings", [](const R& r) { return r.warnings; }, "The warnings, a sentence each.");
+  result->def_property_readonly("times", &Times, "The seconds of each stage.");
   result->def("__len__", [](const FittedSurface& self) { return self.result.points.size(); });
   result->def("__repr__", [](const FittedSurface& self) {
     return "<ceres_ed.FitResult of " + std::to_string(self.result.points.size()) + " points, " +
@@ -263,19 +268,23 @@ void BindNumbers(ResultClass* result) {
 }
 
 void BindProgress(py::module_& module) {
-  py::class_<FitProgress>(module, "FitProgress", "How far a fit is.")
+  py::class_<FitProgress>(module, "FitProgress", "The progress of a fit.")
       .def_readonly("stage", &FitProgress::stage, "'rigid' or 'fit'.")
-      .def_readonly("fraction", &FitProgress::fraction, "In [0, 1].")
-      .def_readonly("inliers", &FitProgress::inliers, "Matches that are believed.")
-      .def_readonly("rms_plane", &FitProgress::rms_plane, "Of the inliers, target unit.")
-      .def_readonly("energy", &FitProgress::energy, "No unit.");
+      .def_readonly(
+          "fraction", &FitProgress::fraction, "The part of the fit that is done, in [0, 1].")
+      .def_readonly("inliers", &FitProgress::inliers, "The number of accepted matches.")
+      .def_readonly(
+          "rms_plane",
+          &FitProgress::rms_plane,
+          "The root mean square point-to-plane distance of the inliers, in the target's unit.")
+      .def_readonly("energy", &FitProgress::energy, "The objective, without unit.");
 }
 
 }  // namespace
 
 void BindFit(py::module_& module) {
   BindProgress(module);
-  ResultClass result(module, "FitResult", R"(What a fit found.
+  ResultClass result(module, "FitResult", R"(The result of a fit.
 
 Arrays of points are views of the result's own memory and keep it alive.)");
   BindArrays(&result);
@@ -292,28 +301,30 @@ Arrays of points are views of the result's own memory and keep it alive.)");
              py::arg("options") = nullptr,
              py::arg("progress") = py::none(),
              py::arg("should_stop") = py::none(),
-             R"(Deforms `source` until it lies on `target`, or its landmarks where they belong.
+             R"(Deforms `source` to lie on `target`, or to bring its landmarks to their positions.
 
-Other Python threads run meanwhile; Ctrl-C, and an exception in `progress` or `should_stop`, end the
-fit and are raised. The result doesn't depend on the number of threads.
+Other Python threads run during the fit. Ctrl-C, and an exception in `progress` or `should_stop`,
+end the fit and are raised. The result does not depend on the number of threads.
 
 Args:
-  source, target: any surface (see Cloud), in the same unit. Without a target: landmarks alone.
-  landmarks: {source point: (x, y, z)}, or a pair (source points (N,), positions (N, 3)): where
-    points go, in the target's frame.
-  fixed: (N,) source points that stay where they are; there is no rigid motion then.
-  energies: more energies: a str as of ed_fit --energy ('floor:weight=1e4,height=-0.1;...'), an
-    Energy, or a list of both.
-  plugin: path of a shared object with more energies, or a list of them.
-  options: a FitOptions; its options are also keywords of their own, which come first.
-  progress: called with a FitProgress after each round.
-  should_stop: asked often, without arguments; True ends the fit with the best so far.
+  source, target: surfaces of any kind (see Cloud), in the same unit. Without a target, the source
+    is fitted to the landmarks alone.
+  landmarks: the positions of source points in the target's frame: {source point: (x, y, z)}, or a
+    pair (source points (N,), positions (N, 3)).
+  fixed: (N,) source points that do not move. If there are any, there is no rigid motion.
+  energies: additional energies: a str as in ed_fit --energy ('floor:weight=1e4,height=-0.1;...'),
+    an Energy, or a list of both.
+  plugin: the path of a shared object with more energies, or a list of paths.
+  options: a FitOptions. Its options may also be given as keywords, which take precedence.
+  progress: a function that is called with a FitProgress after each round.
+  should_stop: a function that is called often, without arguments. If it returns True, the fit ends
+    with the best result so far.
 
 Returns: a FitResult.
 Raises:
-  ValueError: an input, option or energy that can't be used; says what was expected.
-  OSError: a plugin that can't be read.
-  RuntimeError: nothing usable was found.)");
+  ValueError: an input, an option or an energy can't be used. The text says what was expected.
+  OSError: a plugin can't be read.
+  RuntimeError: there is no usable result.)");
 }
 
 }  // namespace ceres_ed::python

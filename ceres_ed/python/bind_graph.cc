@@ -1,4 +1,4 @@
-// Deformation graphs: built on a surface, or from nodes and edges.
+// Binds deformation graphs, which are built on a surface or made from nodes and edges.
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/bindings.h>
@@ -38,11 +38,11 @@ void AddEdges(const py::object& edges, const py::object& weights, DeformationGra
     if (std::max(edge.from, edge.to) >= graph->num_nodes() || edge.from == edge.to) {
       throw py::value_error("edge " + std::to_string(e) + " joins nodes " +
                             std::to_string(edge.from) + " and " + std::to_string(edge.to) +
-                            ", expected two of " + std::to_string(graph->num_nodes()));
+                            ", expected two of " + std::to_string(graph->num_nodes()) + " nodes");
     }
     if (!(edge.weight >= 0.0)) {
-      throw py::value_error("edge " + std::to_string(e) + " weighs " + std::to_string(edge.weight) +
-                            ", expected >= 0");
+      throw py::value_error("edge " + std::to_string(e) + " has weight " +
+                            std::to_string(edge.weight) + ", expected >= 0");
     }
     graph->AddEdge(edge);
   }
@@ -112,40 +112,44 @@ BindingOptions ToBinding(int neighbors, const std::string& distance) {
 
 void BindGraph(py::module_& module) {
   const OptionsClass<GraphOptions> options(
-      module, "GraphOptions", "How a graph is built. Lengths in the unit of the surface.");
-  py::class_<Graph>(module, "Graph", R"(Nodes of a deformation graph and the edges between them.
+      module, "GraphOptions", "The options of a graph. Lengths are in the unit of the surface.");
+  py::class_<Graph>(module, "Graph", R"(The nodes of a deformation graph and the edges between them.
 
-Arrays are copies to look at (the library keeps nodes where growing never moves them), of a few
-hundred rows.)")
-      .def(
-          py::init(&MakeGraph),
-          py::arg("nodes"),
-          py::arg("edges") = py::none(),
-          py::arg("edge_weights") = py::none(),
-          R"(From `nodes` (N, 3), directed `edges` (E, 2) and their weights (E,), >= 0 (1 where None).)")
+Arrays are read-only copies, because the library does not keep the nodes in one piece of memory.)")
+      .def(py::init(&MakeGraph),
+           py::arg("nodes"),
+           py::arg("edges") = py::none(),
+           py::arg("edge_weights") = py::none(),
+           R"(Takes `nodes` (N, 3), directed `edges` (E, 2) and their weights >= 0 (E,).
+
+Without weights, all are 1.)")
       .def_static("build",
                   &Build,
                   py::arg("surface"),
                   py::arg("options") = nullptr,
                   R"(Returns the graph of a surface.
 
-Options are those of GraphOptions, by keyword, on top of `options`. ValueError on bad ones, and on a
-surface without points or extent.)")
+The options of GraphOptions may be given as keywords, which take precedence over `options`. Raises a
+ValueError for a bad option, and for a surface without points or extent.)")
       .def_property_readonly(
-          "nodes", [](const Graph& self) { return Nodes(self.graph); }, "(N, 3) at rest.")
+          "nodes",
+          [](const Graph& self) { return Nodes(self.graph); },
+          "The rest positions, (N, 3).")
       .def_property_readonly(
           "edges",
           [](const Graph& self) { return Edges(self.graph); },
-          "(E, 2) int32: node j predicts where node k goes (Eq. 6).")
+          "Directed edges (j, k), (E, 2) int32: node j predicts the motion of node k (Eq. 6).")
       .def_property_readonly(
           "edge_weights",
           [](const Graph& self) { return EdgeWeights(self.graph); },
-          "(E,) alpha_jk, no unit.")
+          "The weights alpha_jk, (E,), without unit.")
       .def_property_readonly(
           "node_points",
           [](const Graph& self) { return self.node_points; },
-          "The point of the surface that each node sits on; empty unless built on one.")
-      .def_readonly("node_spacing", &Graph::node_spacing, "Unit of the points; 0: not known.")
+          "The point of the surface at which each node lies; empty unless the graph was built on "
+          "one.")
+      .def_readonly(
+          "node_spacing", &Graph::node_spacing, "In the unit of the points; 0 if it is not known.")
       .def_readonly("warnings", &Graph::warnings)
       .def("__len__", [](const Graph& self) { return self.graph.num_nodes(); })
       .def("__repr__", [](const Graph& self) {

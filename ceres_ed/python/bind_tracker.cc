@@ -1,4 +1,4 @@
-// Deformable tracking and mapping, frame by frame.
+// Binds deformable tracking and mapping, which processes one frame after another.
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/graphs.h>
@@ -38,7 +38,7 @@ PinholeCamera MakeCamera(double fx, double fy, double cx, double cy, int width, 
 void BindCamera(py::module_& module) {
   using C = PinholeCamera;
   py::class_<C>(
-      module, "Camera", "Intrinsics of a rectified picture, pixels; integers are pixel centres.")
+      module, "Camera", "The intrinsics of rectified images in pixels. Integers are pixel centres.")
       .def(py::init(&MakeCamera),
            py::arg("fx"),
            py::arg("fy"),
@@ -62,25 +62,30 @@ void BindCamera(py::module_& module) {
 
 void BindReport(py::module_& module) {
   using R = FrameReport;
-  py::class_<R>(module, "FrameReport", "What became of a frame.")
+  py::class_<R>(module, "FrameReport", "The report on a frame.")
       .def_readonly("number", &R::number)
       .def_property_readonly(
           "status",
           [](const R& self) { return NameOf(self.status); },
-          "'initialized', 'tracked', 'relocalized', 'lost' (the map is as it was) or 'skipped' "
-          "(nothing to be seen).")
-      .def_property_readonly("times", &Times, "Seconds by stage.")
+          "'initialized', 'tracked', 'relocalized', 'lost' (the map is unchanged) or 'skipped' "
+          "(there is no usable depth).")
+      .def_property_readonly("times", &Times, "The seconds of each stage.")
       .def_readonly("nodes", &R::nodes)
-      .def_readonly("point_relevant", &R::point_relevant, "Nodes with data.")
-      .def_readonly("active", &R::active, "Nodes that level I has moved.")
-      .def_readonly("updated_pi", &R::updated_pi, "Nodes that level II has moved, by wave.")
-      .def_readonly("points", &R::points, "Map points with an observation in this frame.")
-      .def_readonly("map_points", &R::map_points, "All points of the map.")
-      .def_readonly("inliers", &R::inliers, "Map points near the observed surface.")
-      .def_readonly("features", &R::features, "Corners that were followed.")
-      .def_readonly("rms_plane", &R::rms_plane, "Of the inliers to their planes, metres.")
-      .def_readonly("energy", &R::energy, "Of level I, no unit.")
-      .def_readonly("iterations", &R::iterations, "Of level I.")
+      .def_readonly("point_relevant", &R::point_relevant, "The number of nodes with data.")
+      .def_readonly("active", &R::active, "The number of nodes that Level I has moved.")
+      .def_readonly("updated_pi",
+                    &R::updated_pi,
+                    "The number of PI nodes that Level II has moved, summed over its waves.")
+      .def_readonly(
+          "points", &R::points, "The number of map points with an observation in this frame.")
+      .def_readonly("map_points", &R::map_points, "The number of all points of the map.")
+      .def_readonly("inliers", &R::inliers, "The number of map points near the observed surface.")
+      .def_readonly("features", &R::features, "The number of corners that were followed.")
+      .def_readonly("rms_plane",
+                    &R::rms_plane,
+                    "The root mean square distance of the inliers to their planes, in metres.")
+      .def_readonly("energy", &R::energy, "The energy of Level I, without unit.")
+      .def_readonly("iterations", &R::iterations, "The number of iterations of Level I.")
       .def("__repr__", [](const R& self) {
         return "<ceres_ed.FrameReport " + std::to_string(self.number) + ": " + NameOf(self.status) +
                ", " + std::to_string(self.nodes) + " nodes, " + std::to_string(self.map_points) +
@@ -88,7 +93,7 @@ void BindReport(py::module_& module) {
       });
 }
 
-// (N,) on a vector of a snapshot.
+// Returns a getter of the (N,) array that shows a vector of a snapshot.
 template <typename T>
 auto Column(std::vector<T> MapSnapshot::*column) {
   return [column](const py::object& self) {
@@ -99,37 +104,42 @@ auto Column(std::vector<T> MapSnapshot::*column) {
 
 void BindSnapshot(py::module_& module) {
   using S = MapSnapshot;
-  py::class_<S>(module, "MapSnapshot", R"(The points of a map at one time, metres.
+  py::class_<S>(module, "MapSnapshot", R"(The points of a map at one time. Lengths are in metres.
 
-All arrays have a row a point and are views of the snapshot's memory.)")
+All arrays have one row for each point and are views of the snapshot's memory.)")
       .def_property_readonly(
           "points",
           [](const py::object& self) { return View(self.cast<S&>().points, self); },
-          "(N, 3)")
+          "The positions, (N, 3).")
       .def_property_readonly(
           "normals",
           [](const py::object& self) { return View(self.cast<S&>().normals, self); },
-          "(N, 3), unit length.")
+          "The normals of unit length, (N, 3).")
       .def_property_readonly(
           "colors",
           [](const py::object& self) {
             std::vector<std::array<std::uint8_t, 3>>& colors = self.cast<S&>().colors;
             return View(reinterpret_cast<std::uint8_t*>(colors.data()), colors.size(), 3, self);
           },
-          "(N, 3) uint8, red green blue.")
-      .def_property_readonly("ids", Column(&S::ids), "(N,) int32, never reused.")
+          "Red, green and blue, (N, 3) uint8.")
       .def_property_readonly(
-          "birth_frames", Column(&S::birth_frames), "(N,) int32: the frame that saw it first.")
-      .def_property_readonly(
-          "weights", Column(&S::weights), "(N,) observations in the running average.")
+          "ids", Column(&S::ids), "The numbers of the points, (N,) int32. They are never reused.")
+      .def_property_readonly("birth_frames",
+                             Column(&S::birth_frames),
+                             "The frames in which the points were first seen, (N,) int32.")
+      .def_property_readonly("weights",
+                             Column(&S::weights),
+                             "The numbers of observations in the running averages, (N,).")
       .def("__len__", [](const S& self) { return self.points.size(); });
 }
 
 void BindTrackerClass(py::module_& module) {
-  py::class_<Tracker>(
-      module, "Tracker", R"(Follows camera and tissue through depth frames, and maps them.
+  py::class_<Tracker>(module,
+                      "Tracker",
+                      R"(Tracks camera and tissue in depth frames, and builds a map of the tissue.
 
-Lengths in metres. The map's frame is that of the first camera. One thread at a time: a call while another is at work is a RuntimeError.)")
+Lengths are in metres. The frame of the map is that of the first camera. Only one thread at a
+time may use a tracker: a call during a call of another thread raises a RuntimeError.)")
       .def(py::init<const PinholeCamera&,
                     const SlamOptions*,
                     const py::object&,
@@ -140,38 +150,39 @@ Lengths in metres. The map's frame is that of the first camera. One thread at a 
            py::kw_only(),
            py::arg("energies") = py::none(),
            py::arg("plugin") = py::none(),
-           R"(A tracker without a map.
+           R"(Makes a tracker without a map.
 
-Options are those of TrackerOptions, by keyword, on top of `options`; `energies` and `plugin` are as
-of fit(). ValueError on bad ones.)")
-      .def(
-          "track",
-          &Tracker::Track,
-          py::arg("depth"),
-          py::arg("color") = py::none(),
-          py::arg("pose") = py::none(),
-          py::kw_only(),
-          py::arg("units_per_metre") = py::none(),
-          py::arg("number") = py::none(),
-          py::arg("catch_up") = false,
-          R"(Takes the next frame in and returns its FrameReport. Other Python threads run meanwhile.
+The options of TrackerOptions may be given as keywords, which take precedence over `options`.
+`energies` and `plugin` are those of fit(). Raises a ValueError for a bad value.)")
+      .def("track",
+           &Tracker::Track,
+           py::arg("depth"),
+           py::arg("color") = py::none(),
+           py::arg("pose") = py::none(),
+           py::kw_only(),
+           py::arg("units_per_metre") = py::none(),
+           py::arg("number") = py::none(),
+           py::arg("catch_up") = false,
+           R"(Processes the next frame and returns its FrameReport.
+
+Other Python threads run during the call.
 
 Args:
-  depth: (height, width) along the optical axis; 0 or no number where there is none. Contiguous
-    float32 metres are used as they are, anything else is converted.
-  color: (height, width, 3) uint8, red green blue.
-  pose: (4, 4) camera to world, metres, for camera='given'.
-  units_per_metre: of `depth`, 1000 for millimetres; integers must have it.
-  number: of the frame; None: the one after the last.
-  catch_up: whether all of the map will be asked for after this frame.
+  depth: (height, width), the depth along the optical axis; 0 or NaN where there is none. Contiguous
+    float32 metres are used as they are; anything else is converted.
+  color: (height, width, 3) uint8, red, green and blue.
+  pose: (4, 4), camera to world, in metres; for camera='given'.
+  units_per_metre: the unit of `depth`, for example 1000 for millimetres; required for integers.
+  number: the number of the frame; None means the one after the last.
+  catch_up: whether the whole map will be requested after this frame.
 Raises:
-  ValueError: an image of another shape or type, or a pose that is none.)")
+  ValueError: an image has another shape or type, or a pose is not a rigid motion.)")
       .def("snapshot",
            &Tracker::Snapshot,
            py::arg("frame") = "map",
-           R"(Returns a MapSnapshot of all points as they are now, in 'map' or 'camera' coordinates.
+           R"(Returns a MapSnapshot of the current points, in 'map' or 'camera' coordinates.
 
-What was left behind out of view follows first.)")
+Nodes out of view that lazy Level II has not moved yet are moved first.)")
       .def(
           "points",
           [](Tracker& self, const std::string& frame) {
@@ -186,11 +197,12 @@ What was left behind out of view follows first.)")
             if (!pose) return py::none();
             return ToMatrix(*pose);
           },
-          "(4, 4) camera to map, metres; None before the first frame.")
+          "The pose of the camera, (4, 4) camera to map, in metres; None before the first frame.")
       .def_property_readonly(
           "warp",
           [](Tracker& self) { return self.MakeWarp(); },
-          "The Warp from where tissue is at rest to where it is now, map frame, metres; a copy.")
+          "The Warp from the rest shape of the tissue to its current shape, in the map frame, in "
+          "metres; a copy.")
       .def_property_readonly(
           "graph",
           [](Tracker& self) {
@@ -200,10 +212,12 @@ What was left behind out of view follows first.)")
             graph.graph = std::move(warp.graph);
             return graph;
           },
-          "The Graph at rest, map frame, metres; a copy.")
+          "The Graph of the rest shape, in the map frame and in metres; a copy.")
       .def_property_readonly(
-          "point_relevant", &Tracker::PointRelevant, "(nodes,) bool: data in the last frame.")
-      .def("__len__", &Tracker::NumPoints, "Points of the map.");
+          "point_relevant",
+          &Tracker::PointRelevant,
+          "(nodes,) bool: whether the node had data in the last tracked frame, or was added in it.")
+      .def("__len__", &Tracker::NumPoints, "Returns the number of points of the map.");
 }
 
 }  // namespace

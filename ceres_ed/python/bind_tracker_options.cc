@@ -1,4 +1,4 @@
-// The options of a tracker, by the names of the flags of ed_slam.
+// Binds the options of a tracker, which have the names of the flags of ed_slam.
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/options.h>
 #include <ceres_ed/slam/slam.h>
@@ -7,10 +7,10 @@ namespace ceres_ed::python {
 
 void BindTrackerOptions(py::module_& module) {
   const OptionsClass<SlamOptions> options(
-      module, "TrackerOptions", R"(How frames are taken in. Lengths in metres.
+      module, "TrackerOptions", R"(The options of a tracker. Lengths are in metres.
 
-Each option is an attribute, and a keyword of this class and of Tracker. It is named like the flag of
-ed_slam.)");
+Each option is an attribute, and a keyword of this class and of Tracker. It has the name of the
+flag of ed_slam.)");
 }
 
 }  // namespace ceres_ed::python

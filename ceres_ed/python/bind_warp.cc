@@ -1,4 +1,4 @@
-// Deformations: loaded, made, looked at, changed, applied.
+// Binds deformations, which can be loaded, made, read, changed and applied.
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/warp_io.h>
 #include <ceres_ed/python/arrays.h>
@@ -108,45 +108,51 @@ void BindWarp(py::module_& module) {
 
   v~ = s R (sum_j w_j(v) [A_j (v - g_j) + g_j + t_j] + f(v)) + T
 
-with s, R, T the target_from_source, and f what a fit's finish adds. Node arrays are copies to look
-at; assign to change: `warp.translation = warp.translation + [0, 0, 1]`.)")
+Here s, R, T are target_from_source, and f is the displacement that the finish of a fit adds. Arrays
+of nodes are read-only copies. To change one, assign a new array:
+`warp.translation = warp.translation + [0, 0, 1]`.)")
       .def(py::init(&MakeWarp),
            py::arg("graph"),
            py::kw_only(),
            py::arg("neighbors") = py::none(),
            py::arg("distance") = py::none(),
-           R"(All nodes of `graph` at rest.
+           R"(Makes a warp that leaves all nodes of `graph` at rest.
 
-`neighbors` (1 to 8) and `distance` ('surface' or 'euclidean') say how points find their nodes; None:
-as the graph was built.)")
+`neighbors` (1 to 8) and `distance` ('surface' or 'euclidean') say how points are bound to nodes.
+None means the values with which the graph was built.)")
       .def_static("load",
                   &LoadWarp,
                   py::arg("path"),
-                  R"(Returns the warp of a file of save() or ed_fit --warp.
+                  R"(Returns the warp in a file that save() or ed_fit --warp has written.
 
-OSError where it can't be read; ValueError, naming the field, where it is no such file.)")
+Raises an OSError if the file can't be read, and a ValueError that names the field if it is not
+such a file.)")
       .def(
           "save",
           [](const Warp& self, const py::object& path) {
             ThrowUnlessWritten(WriteWarp(ToPath(path), self));
           },
           py::arg("path"),
-          "Writes a JSON that load() and ed_apply take, to the last bit; whole or not at all.")
+          "Writes a JSON file for load() and ed_apply, completely or not at all. Numbers are read "
+          "back with the same bits.")
       .def("apply",
            &Apply,
            py::arg("points"),
            py::arg("normals") = py::none(),
            py::kw_only(),
            py::arg("threads") = 1,
-           R"(Returns points of the source frame in the target frame, (N, 3).
+           R"(Returns points of the source's frame, deformed, in the target's frame, (N, 3).
 
-`points` is any surface; triangles that it has decide which nodes are near. With `normals` (N, 3)
-it returns a pair (points, normals).)")
-      .def_property_readonly("graph", &GraphOf, "The Graph, source frame and unit.")
+`points` is any surface. If it has triangles and `distance` is 'surface', distances to nodes are
+measured along the triangles. With `normals` (N, 3) it returns a pair (points, normals).)")
+      .def_property_readonly("graph", &GraphOf, "The Graph, in the source's frame and unit.")
       .def_property_readonly(
-          "nodes", [](const Warp& self) { return Nodes(self.graph); }, "(N, 3) g_j, at rest.")
-      .def_property("affine", &Affine, &SetAffine, "(N, 3, 3) A_j.")
-      .def_property("translation", &Translation, &SetTranslation, "(N, 3) t_j, source unit.")
+          "nodes",
+          [](const Warp& self) { return Nodes(self.graph); },
+          "The rest positions g_j, (N, 3).")
+      .def_property("affine", &Affine, &SetAffine, "A_j, (N, 3, 3).")
+      .def_property(
+          "translation", &Translation, &SetTranslation, "t_j, (N, 3), in the source's unit.")
       .def_property(
           "target_from_source",
           [](const Warp& self) { return ToMatrix(self.target_from_source); },
@@ -157,21 +163,21 @@ it returns a pair (points, normals).)")
       .def_property_readonly(
           "neighbors",
           [](const Warp& self) { return self.binding.neighbors; },
-          "Nodes that carry a point.")
+          "The largest number of nodes to which a point is bound.")
       .def_property_readonly(
           "distance",
           [](const Warp& self) { return NameOf(self.binding.distance); },
-          "'surface' or 'euclidean': what is near.")
+          "'surface' or 'euclidean': how the distances to nodes are measured.")
       .def_property_readonly(
           "finish_points",
           [](const py::object& self) { return ViewOrNone(self.cast<Warp&>().finish.points, self); },
-          "(P, 3) where f is known, a view; None without a finish.")
+          "The points at which f is given, (P, 3); a view. None without a finish.")
       .def_property_readonly(
           "finish_displacements",
           [](const py::object& self) {
             return ViewOrNone(self.cast<Warp&>().finish.displacements, self);
           },
-          "(P, 3) f at these points, source unit, a view.")
+          "f at these points, (P, 3), in the source's unit; a view. None without a finish.")
       .def("__len__", [](const Warp& self) { return self.graph.num_nodes(); })
       .def("__repr__", [](const Warp& self) {
         return "<ceres_ed.Warp of " + std::to_string(self.graph.num_nodes()) + " nodes" +

@@ -1,4 +1,4 @@
-// The parts of the module, each in the file of its name.
+// The parts of the module. Each is defined in the file of its name.
 #ifndef CERES_ED_PYTHON_BINDINGS_H_
 #define CERES_ED_PYTHON_BINDINGS_H_
 

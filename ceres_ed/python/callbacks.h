@@ -1,4 +1,4 @@
-// Python functions that the library calls while it works without the interpreter's lock.
+// Calls Python functions while the library works without the interpreter's lock.
 #ifndef CERES_ED_PYTHON_CALLBACKS_H_
 #define CERES_ED_PYTHON_CALLBACKS_H_
 
@@ -12,15 +12,15 @@
 
 namespace ceres_ed::python {
 
-// Takes the lock for each call. An exception (KeyboardInterrupt is one) asks the work to stop, and
-// is kept until it has.
+// Takes the lock for each call. An exception (for example KeyboardInterrupt) requests that the work
+// stops. It is stored until the work has stopped.
 class Callbacks {
  public:
-  // `should_stop` is None, or is asked whether to stop.
+  // `should_stop` is None, or a function that returns whether the work should stop.
   explicit Callbacks(pybind11::object should_stop) : should_stop_(std::move(should_stop)) {}
 
-  // Whether the work is to stop. Asks Python at most fifty times a second: the lock may be held by
-  // another thread, and waiting for it is what costs.
+  // Returns whether the work should stop. Calls Python at most fifty times per second, because
+  // another thread may hold the lock, and waiting for it takes time.
   bool ShouldStop() {
     constexpr double kInterval = 0.02;
     if (stop_ || timer_.Seconds() < kInterval) return stop_;
@@ -32,7 +32,7 @@ class Callbacks {
     return stop_;
   }
 
-  // Calls `function` with the lock; not at all after an exception.
+  // Calls `function` with the lock. After an exception it does nothing.
   void Call(const std::function<void()>& function) {
     if (error_) return;
     const pybind11::gil_scoped_acquire lock;
@@ -44,7 +44,7 @@ class Callbacks {
     }
   }
 
-  // Throws what was kept. With the lock held.
+  // Throws the stored exception, if there is one. The lock must be held.
   void Rethrow() {
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
   }

@@ -1,4 +1,4 @@
-// Energies as Python has them.
+// Converts energies from Python.
 #ifndef CERES_ED_PYTHON_ENERGIES_H_
 #define CERES_ED_PYTHON_ENERGIES_H_
 
@@ -11,12 +11,13 @@
 
 namespace ceres_ed::python {
 
-// From None, a text as of --energy, an Energy, or a sequence of texts and Energies. ValueError on a
-// text that can't be read.
+// Returns energies from None, a text as in --energy, an Energy, or a sequence of texts and
+// Energies. Raises a ValueError for a text that cannot be parsed, and a TypeError for anything
+// else.
 std::vector<EnergySpec> ToEnergies(const pybind11::object& energies);
 
-// The energies of the library and of `plugins`: None, a path or a sequence of paths. OSError on a
-// file that can't be read, ValueError on one that is no plugin of this library.
+// Returns the energies of the library and of `plugins`: None, a path or a sequence of paths. Raises
+// an OSError if a file cannot be read, and a ValueError if it is not a plugin of this library.
 EnergyRegistry MakeRegistry(const pybind11::object& plugins);
 
 }  // namespace ceres_ed::python

@@ -1,4 +1,4 @@
-// What the library says of bad input, as exceptions.
+// Raises the errors of the library as exceptions of Python.
 #ifndef CERES_ED_PYTHON_ERRORS_H_
 #define CERES_ED_PYTHON_ERRORS_H_
 
@@ -11,7 +11,7 @@
 
 namespace ceres_ed::python {
 
-// ValueError with the library's sentence.
+// Raise a ValueError with the library's sentence if there is an error.
 inline void ThrowUnlessOk(const Status& status) {
   if (!status.ok()) throw pybind11::value_error(status.message());
 }
@@ -21,13 +21,14 @@ T ValueOrThrow(StatusOr<T> value) {
   return *std::move(value);
 }
 
-// OSError of the right kind (FileNotFoundError, PermissionError ...) unless `path` can be read.
+// Raises an OSError of the right kind (FileNotFoundError, PermissionError ...) unless `path` can be
+// read.
 void CheckReadable(const std::string& path);
 
-// OSError with the library's sentence: a file that could not be written.
+// Raises an OSError with the library's sentence if a file could not be written.
 void ThrowUnlessWritten(const Status& status);
 
-// A path from str or os.PathLike.
+// Returns a path from a str or an os.PathLike.
 std::string ToPath(const pybind11::object& path);
 
 }  // namespace ceres_ed::python

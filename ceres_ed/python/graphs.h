@@ -12,23 +12,23 @@
 
 namespace ceres_ed::python {
 
-// Nodes and edges, and how the points that they were built on are bound to them.
+// Nodes and edges, and the options with which the points of the surface are bound to them.
 struct Graph {
   DeformationGraph graph;
   BindingOptions binding;
-  // The point that each node sits on; empty where it was not built on points.
+  // The point at which each node lies; empty if the graph was not built on points.
   std::vector<int> node_points;
-  // Unit of the points; 0 where it isn't known.
+  // The node spacing in the unit of the points; 0 if it is not known.
   double node_spacing = 0.0;
   std::vector<std::string> warnings;
 };
 
-// Nodes (N, 3), edges (E, 2) and their weights (E,), to look at.
+// Return the nodes (N, 3), the edges (E, 2) and their weights (E,) as read-only copies.
 pybind11::array Nodes(const DeformationGraph& graph);
 pybind11::array Edges(const DeformationGraph& graph);
 pybind11::array EdgeWeights(const DeformationGraph& graph);
 
-// What is said of binding; ValueError on another word or number.
+// Returns binding options. Raises a ValueError for an unknown name or a bad number.
 BindingOptions ToBinding(int neighbors, const std::string& distance);
 
 }  // namespace ceres_ed::python

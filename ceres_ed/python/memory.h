@@ -1,4 +1,4 @@
-// What the allocator should know ahead of the first fit.
+// Prepares the memory allocator for the first fit.
 #ifndef CERES_ED_PYTHON_MEMORY_H_
 #define CERES_ED_PYTHON_MEMORY_H_
 
@@ -7,14 +7,16 @@
 
 namespace ceres_ed::python {
 
-// Has glibc keep blocks of up to 32 MB when they are freed, as it does in any process that has once
-// freed one so large: it learns by that, and a fit would be a tenth slower while it learns,
-// fetching the same memory from the system again and again. The programs go further (mallopt), but
-// this process isn't ours: what is done here sets nothing, and touches no page.
+// Makes glibc keep blocks of up to 32 MB when they are freed. In any process glibc learns to do so
+// when such a block has been freed once. Without this function it learns during the first fit,
+// which then takes a tenth longer, because it requests the same memory from the system again and
+// again. The programs also call mallopt(), but the settings of this process belong to its user:
+// this function changes no setting and keeps no memory.
 inline void ExpectLargeBlocks() {
 #ifdef __GLIBC__
   static const bool done = [] {
-    // Less what would round up to more than glibc lets itself learn (DEFAULT_MMAP_THRESHOLD_MAX).
+    // The largest threshold that glibc learns is 32 MB (DEFAULT_MMAP_THRESHOLD_MAX), and it rounds
+    // the size of a block up.
     constexpr std::size_t kLargest = (std::size_t{32} << 20) - (std::size_t{64} << 10);
     void* volatile block = std::malloc(kLargest);
     std::free(block);

@@ -1,4 +1,4 @@
-// The module ceres_ed._core: all that `import ceres_ed` gives.
+// The module ceres_ed._core, which has everything that `import ceres_ed` provides.
 #include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/version.h>
@@ -10,7 +10,7 @@ namespace py = pybind11;
 PYBIND11_MODULE(_core, module) {
   module.doc() = "Embedded-deformation graphs on Ceres Solver.";
   module.attr("__version__") = ceres_ed::kVersion;
-  // A class ahead of the functions that take it or return it, so that their texts name it.
+  // A class is bound before the functions that take or return it, so that their docstrings name it.
   ceres_ed::python::BindCloud(module);
   ceres_ed::python::BindEnergies(module);
   ceres_ed::python::BindGraph(module);
@@ -31,5 +31,7 @@ PYBIND11_MODULE(_core, module) {
         about["kernels"] = backend.kernels;
         return about;
       },
-      "What this process solves with: Ceres, its sparse library, BLAS, ordering, instructions.");
+      "Returns the libraries with which this process solves: the version of Ceres, its sparse "
+      "library, "
+      "BLAS, the ordering library, and the instructions of the kernels.");
 }

@@ -1,4 +1,4 @@
-// Options as Python has them: attributes of an object, and keywords of the functions that take it.
+// Options in Python: attributes of an object, and keywords of the functions that take it.
 #ifndef CERES_ED_PYTHON_OPTIONS_H_
 #define CERES_ED_PYTHON_OPTIONS_H_
 
@@ -16,7 +16,8 @@ namespace ceres_ed::python {
 
 namespace py = pybind11;
 
-// The class of an Options struct: an attribute for each row of its table that users see.
+// The class of an Options struct. It has an attribute for each row of its table that is not
+// internal.
 template <typename Options>
 class OptionsClass {
  public:
@@ -27,7 +28,7 @@ class OptionsClass {
                  Apply(name, changes, &options);
                  return options;
                }),
-               "Defaults, but for the options that are named.");
+               "Takes the options that differ from their defaults.");
     class_.def("__repr__", [name = name_](const py::object& self) {
       std::string text;
       for (const py::handle option : self.attr("names")) {
@@ -38,7 +39,7 @@ class OptionsClass {
     });
     class_.def("__copy__", [](const Options& self) { return self; });
     class_.def(
-        "copy", [](const Options& self) { return self; }, "An equal object of its own.");
+        "copy", [](const Options& self) { return self; }, "Returns a copy.");
     py::list names;
     for (const Row& row : Options::Rows()) {
       if (row.option.group == OptionGroup::kInternal) continue;
@@ -48,7 +49,8 @@ class OptionsClass {
     class_.attr("names") = py::tuple(names);
   }
 
-  // Sets the options that `changes` names; TypeError, with the known ones, on another name.
+  // Sets the options that `changes` names. Raises a TypeError that lists the known options for
+  // another name.
   static void Apply(const std::string& caller, const py::kwargs& changes, Options* options) {
     if (changes.empty()) return;
     const py::object self = py::cast(options, py::return_value_policy::reference);
@@ -75,7 +77,7 @@ class OptionsClass {
     return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
   }
 
-  // The attribute has the type of the member. Tables live as long as the module.
+  // Adds an attribute with the type of the member. Tables live as long as the module.
   void AddAttribute(const Row& row) {
     Options defaults;
     const OptionField field = row.field(&defaults);
@@ -112,7 +114,8 @@ class OptionsClass {
                           field.list("' or '") + "'");
   }
 
-  // The sentence of the row, then what a value may be, its unit, and the default.
+  // Returns the docstring: the sentence of the row, the values that are allowed, the unit and the
+  // default.
   static std::string TextOf(const Row& row, const py::object& value) {
     Options defaults;
     const OptionField field = row.field(&defaults);

@@ -7,7 +7,7 @@
 namespace ceres_ed::python {
 namespace {
 
-// The attribute, or None.
+// Returns the attribute, or None if there is no such attribute.
 py::object Attribute(const py::object& object, const char* name) {
   return py::getattr(object, name, py::none());
 }
@@ -21,17 +21,18 @@ PointCloud FromArrays(const py::object& points,
   if (!IsNone(triangles)) {
     cloud.triangles = ToTriangles(triangles, cloud.size(), what + "'s triangles");
   }
-  // Open3D has an empty list where there are none.
+  // Open3D has an empty list if there are no normals.
   if (!IsNone(normals) && py::len(normals) > 0) {
     cloud.normals = ToNormals(normals, cloud.size(), what + "'s normals");
   }
   return cloud;
 }
 
-// Reads meshes of trimesh and Open3D. trimesh computes normals on request, which the library does,
-// too. So normals are taken from Open3D only, where they may come from a file.
+// Reads a mesh or cloud of trimesh or Open3D. Returns false if `object` is not one. Normals of
+// trimesh are not used, because trimesh computes them on request, and so does the library. Normals
+// of Open3D are used, because they may come from a file.
 bool FromObject(const py::object& object, const std::string& what, PointCloud* cloud) {
-  if (py::hasattr(object, "to_legacy")) {  // Open3D's tensors
+  if (py::hasattr(object, "to_legacy")) {  // a mesh or cloud of Open3D's tensors
     return FromObject(object.attr("to_legacy")(), what, cloud);
   }
   if (py::hasattr(object, "vertices")) {
@@ -49,7 +50,8 @@ bool FromObject(const py::object& object, const std::string& what, PointCloud* c
 }
 
 bool IsPairOfArrays(const py::object& object) {
-  // Not a list: two points are one, too. And of a pair of points the second is no matrix.
+  // A list does not count, because a list of two points is a surface, too. In a tuple of two points
+  // the second entry is not a matrix.
   if (!py::isinstance<py::tuple>(object) || py::len(object) != 2) return false;
   const py::array second = py::array::ensure(py::tuple(object)[1]);
   return second && (second.ndim() == 2 || second.size() == 0);

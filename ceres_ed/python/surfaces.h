@@ -1,4 +1,4 @@
-// Surfaces as Python has them: arrays, pairs of arrays, objects of trimesh and Open3D.
+// Surfaces in Python: arrays, pairs of arrays, and objects of trimesh and Open3D.
 #ifndef CERES_ED_PYTHON_SURFACES_H_
 #define CERES_ED_PYTHON_SURFACES_H_
 
@@ -14,29 +14,29 @@
 
 namespace ceres_ed::python {
 
-// The class Cloud: points, with the file that they came from where there is one.
+// The class Cloud: points, and the file from which they were read.
 struct Cloud {
   PointCloud cloud;
-  // Null where it came from arrays.
+  // Null if the points came from arrays.
   std::unique_ptr<LoadedCloud> file;
 };
 
-// The class FitResult: what was found, and what it was found for.
+// The class FitResult: the result of a fit and its input.
 struct FittedSurface {
   FitInput input;
   FitResult result;
 };
 
-// A surface for as long as a call takes: of a Cloud its own, of anything else a copy.
+// A surface that exists during a call. The surface of a Cloud is shared; any other one is a copy.
 class SurfaceArgument {
  public:
-  // `object` is a Cloud, a FitResult, (points, triangles), an object with `vertices` and `faces`
-  // (trimesh) or `triangles` (Open3D), one with `points`, or an array of points. TypeError or
-  // ValueError, naming `what`, on anything else.
+  // `object` is a Cloud, a FitResult, a pair (points, triangles), an object with `vertices` and
+  // `faces` (trimesh) or `triangles` (Open3D), an object with `points`, or an array of points.
+  // Raises a TypeError or a ValueError that names `what` for anything else.
   SurfaceArgument(const pybind11::object& object, const std::string& what);
 
   const PointCloud& operator*() const { return shared_ != nullptr ? *shared_ : own_; }
-  // A copy of what belongs to a Cloud, else the surface itself.
+  // Returns a copy if the surface belongs to a Cloud, otherwise the surface itself.
   PointCloud Take() && {
     if (shared_ != nullptr) return *shared_;
     return std::move(own_);

@@ -39,7 +39,7 @@ void Tracker::CheckSize(const py::array& image, const char* what) const {
                         (what == std::string("depth") ? ")" : ", 3)"));
 }
 
-// The array itself where it holds contiguous float32 metres.
+// Returns the array itself if it has contiguous float32 metres, otherwise a converted copy.
 py::array_t<float, py::array::c_style> Tracker::Metres(
     const py::object& object, std::optional<double> units_per_metre) const {
   py::array depth = py::array::ensure(object);
@@ -53,7 +53,7 @@ py::array_t<float, py::array::c_style> Tracker::Metres(
   }
   if (kind != 'f' && !units_per_metre) {
     throw py::value_error(
-        "depth is an array of integers, expected units_per_metre with it "
+        "depth is an array of integers, expected units_per_metre, too "
         "(1000 for millimetres)");
   }
   if (units_per_metre && !(*units_per_metre > 0.0 && std::isfinite(*units_per_metre))) {
@@ -61,7 +61,7 @@ py::array_t<float, py::array::c_style> Tracker::Metres(
                           ", expected > 0");
   }
   if (units_per_metre && *units_per_metre != 1.0) {
-    // In double, and rounded once: as sequences are read.
+    // The division is done in double and rounded once, as when sequences are read.
     depth = Doubles(depth, "depth").attr("__truediv__")(*units_per_metre);
   }
   return py::array_t<float, py::array::c_style | py::array::forcecast>::ensure(depth);
@@ -97,7 +97,8 @@ FrameReport Tracker::Track(const py::object& depth_object,
     world_from_camera.translation = pose.translation;
     frame.world_from_camera = &world_from_camera;
   } else if (camera_is_given_) {
-    throw py::value_error("pose is None, expected (4, 4): camera='given' takes the frames' poses");
+    throw py::value_error(
+        "pose is None, expected (4, 4): camera='given' needs the pose of every frame");
   }
   const Turn turn(&busy_);
   next_number_ = frame.number + 1;

@@ -30,26 +30,30 @@ class Tracker {
           const py::object& plugin,
           const py::kwargs& changes);
 
+  // Processes a frame. See the docstring of `track` for the arguments.
   FrameReport Track(const py::object& depth,
                     const py::object& color,
                     const py::object& pose,
                     std::optional<double> units_per_metre,
                     std::optional<int> number,
                     bool catch_up);
+  // Returns all points in "map" or "camera" coordinates, and the warp, after CatchUp().
   MapSnapshot Snapshot(const std::string& frame);
   Warp MakeWarp();
-  // Returns the pose of the camera in the map, metres; nothing before the first frame.
+  // Returns the pose of the camera in the map, in metres; nothing before the first frame.
   std::optional<Similarity> CameraPose() const;
+  // Returns for each node whether it had data in the last tracked frame, or was added in it.
   py::array PointRelevant() const;
   int NumPoints() const;
 
  private:
-  // RuntimeError where another thread is at work here, which has let go of the interpreter's lock;
-  // waiting for it with the lock held would have it wait for us.
+  // Prevents the use of the tracker by two threads. Raises a RuntimeError if another thread, which
+  // has released the interpreter's lock, uses the tracker. Waiting with the lock would be a
+  // deadlock, because the other thread needs the lock to finish.
   class Turn {
    public:
     explicit Turn(bool* busy) : busy_(busy) {
-      if (*busy) throw std::runtime_error("the tracker is at work in another thread");
+      if (*busy) throw std::runtime_error("the tracker is in use by another thread");
       *busy = true;
     }
     ~Turn() { *busy_ = false; }
@@ -70,7 +74,7 @@ class Tracker {
   EnergyRegistry registry_;
   std::unique_ptr<DeformableSlam> slam_;
   int next_number_ = 0;
-  // Read and written with the interpreter's lock.
+  // It is only read and written with the interpreter's lock.
   mutable bool busy_ = false;
 };
 
