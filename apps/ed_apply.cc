@@ -1,4 +1,4 @@
-// ed_apply: the deformation that ed_fit found, on any other cloud.
+// ed_apply applies the deformation that ed_fit found to any other cloud.
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/warp_io.h>
@@ -23,7 +23,9 @@ struct ApplySettings {
 const OptionTable<ApplySettings>& ApplyRows() {
   using S = ApplySettings;
   static const OptionTable<S> rows({
-      Row(&S::output, "output", "PLY to write: IN.ply deformed, with all else it has; required.")
+      Row(&S::output,
+          "output",
+          "PLY to write: the deformed IN.ply with all its other data; required.")
           .Letter('o')
           .File(),
   });
@@ -62,9 +64,10 @@ Outcome Run(const std::vector<std::string>& arguments) {
 const ProgramInfo kProgram = {
     "ed_apply",
     "WARP.json IN.ply --output=OUT.ply",
-    "Deforms a cloud or mesh with the warp that `ed_fit --warp=WARP.json` has written: the full "
-    "resolution of a model that was fitted coarsely, or annotations on it. IN.ply is in the frame "
-    "and unit of ed_fit's SOURCE; its faces, colours and other properties are kept.",
+    "Deforms a cloud or mesh with the warp that `ed_fit --warp=WARP.json` has written, for "
+    "example the full resolution of a model that was fitted coarsely, or annotations on it. IN.ply "
+    "is in the frame and unit of ed_fit's SOURCE; its faces, colours and other properties are "
+    "kept.",
     "ed_apply warp.json full_resolution.ply --output=deformed.ply",
     2,
     2};

@@ -1,4 +1,4 @@
-// ed_eval: how good a result is, a fitted surface or the map of a sequence.
+// ed_eval measures how good a result is: a fitted surface, or the map of a sequence.
 #include <ceres_ed/pipeline/evaluate/evaluate_run.h>
 
 #include <string>
@@ -37,9 +37,8 @@ const ProgramInfo kProgram = {
     "ed_eval",
     "RESULT.ply TARGET.ply [flags] | --sequence=SEQ --result=DIR [--report=R.json]",
     "Measures how far a fitted surface is from its target, or how well the map that ed_slam made "
-    "of "
-    "a sequence follows the tissue: against the truth where the sequence has it, and against its "
-    "depth images and tracks_2d.csv. Sequences are in metres.",
+    "of a sequence follows the tissue. The map is compared with the truth, the depth images and "
+    "tracks_2d.csv, as far as the sequence has them. Sequences are in metres.",
     "ed_eval fitted.ply target.ply --source=source.ply --truth=gt.ply",
     0,
     2};

@@ -1,4 +1,5 @@
-// ed_fit: one surface deformed until it lies on another, or its landmarks where they belong.
+// ed_fit deforms one surface so that it lies on another, or so that its landmarks reach their
+// positions.
 #include <ceres_ed/pipeline/fit/fit_run.h>
 #include <ceres_ed/util/timer.h>
 
@@ -36,8 +37,8 @@ Outcome Run(const std::vector<std::string>& arguments) {
 const ProgramInfo kProgram = {
     "ed_fit",
     "SOURCE.ply [TARGET.ply] --output=OUT.ply",
-    "Deforms SOURCE until it lies on TARGET, or, without one, until its --landmarks are where they "
-    "belong. Meshes or bare points, in the same unit.",
+    "Deforms SOURCE so that it lies on TARGET or, without TARGET, so that its --landmarks reach "
+    "their positions. The files are meshes or bare points, in the same unit.",
     "ed_fit source.ply target.ply --output=fitted.ply --warp=warp.json --report=report.json",
     1,
     2};

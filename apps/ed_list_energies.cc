@@ -1,4 +1,4 @@
-// ed_list_energies: every energy with its parameters, units, ranges and defaults.
+// ed_list_energies lists every energy with its parameters, units, ranges and defaults.
 #include <ceres_ed/energy/energy_listing.h>
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/pipeline/energies.h>
@@ -31,7 +31,7 @@ const OptionTable<ListSettings>& ListRows() {
   static const OptionTable<S> rows({
       Row(&S::plugin,
           "plugin",
-          "Shared object whose energies are listed, too; several with ; between them.")
+          "Shared object whose energies are listed, too, or several, separated by ';'.")
           .File(),
       Row(&S::format, "format", "How the energies are written.").Main(),
   });
@@ -52,8 +52,8 @@ Outcome Run(const std::vector<std::string>&) {
   }
   std::fputs(ListEnergies(registry).c_str(), stdout);
   std::printf(
-      "Every energy takes weight (>= 0, default 1), loss (squared, huber, cauchy, tukey, welsch,\n"
-      "geman_mcclure; default squared) and loss_width (> 0, unit of the residual) too:\n"
+      "Every energy also takes weight (>= 0, default 1), loss (squared, huber, cauchy, tukey,\n"
+      "welsch, geman_mcclure; default squared) and loss_width (> 0, unit of the residual):\n"
       "  ed_fit ... --energy='rotation:weight=2;point_to_plane:loss=huber,loss_width=0.01'\n");
   return Outcome::Done();
 }
@@ -61,8 +61,8 @@ Outcome Run(const std::vector<std::string>&) {
 const ProgramInfo kProgram = {
     "ed_list_energies",
     "[--plugin=LIB.so]",
-    "Lists every energy that ed_fit knows, with what its residual is, and the parameters that "
-    "--energy takes: type, unit, range and default.",
+    "Lists every energy that ed_fit knows, with its residual and the parameters that --energy "
+    "takes: type, unit, range and default.",
     "ed_list_energies --plugin=./my_energy.so",
     0,
     0};

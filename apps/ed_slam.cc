@@ -1,4 +1,4 @@
-// ed_slam: the camera and the tissue that it looks at, frame by frame.
+// ed_slam tracks the camera and the tissue that it sees, frame by frame.
 #include <ceres_ed/pipeline/slam/slam_run.h>
 #include <ceres_ed/util/timer.h>
 
@@ -56,10 +56,10 @@ Outcome Run(const std::vector<std::string>& arguments) {
 const ProgramInfo kProgram = {
     "ed_slam",
     "SEQUENCE_DIR --output=DIR",
-    "Tracks a deforming scene in depth frames and maps it. Writes to DIR: report.json, frames.csv, "
-    "trajectory.txt, map.ply, graph.ply, tracks.csv and live/NNNNNN.ply; metres and seconds, and "
-    "t_total of a frame is all but reading and decoding (t_load) and writing (t_write). Ctrl-C "
-    "ends it after the frame at hand.",
+    "Tracks a deforming scene in depth frames and maps it. Writes report.json, frames.csv, "
+    "trajectory.txt, map.ply, graph.ply, tracks.csv and live/NNNNNN.ply to DIR, in metres and "
+    "seconds. t_total of a frame does not include reading and decoding (t_load) and writing "
+    "(t_write). Ctrl-C ends the run after the current frame.",
     "ed_slam sequences/liver --output=out --track=landmarks.ply",
     1,
     1};

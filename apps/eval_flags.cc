@@ -12,14 +12,18 @@ namespace {
 const OptionTable<EvalSettings>& EvalRows() {
   using S = EvalSettings;
   static const OptionTable<S> rows({
-      Row(&S::source, "source", "PLY that was fitted: measures stretched edges and flipped faces.")
+      Row(&S::source,
+          "source",
+          "PLY that was fitted; with it, stretched edges and flipped faces are measured.")
           .File(),
-      Row(&S::truth, "truth", "PLY with the true place of every point of RESULT.ply, in its order.")
+      Row(&S::truth,
+          "truth",
+          "PLY with the true positions of the points of RESULT.ply, in their order.")
           .File(),
-      Row(&S::sequence, "sequence", "Folder of a depth sequence: measures --result, not a pair.")
+      Row(&S::sequence, "sequence", "Folder of a depth sequence, for which --result is measured.")
           .File(),
       Row(&S::result, "result", "Folder that ed_slam wrote for --sequence.").File(),
-      Row(&S::report, "report", "JSON to write: every figure.").File(),
+      Row(&S::report, "report", "JSON to write: all figures.").File(),
       Row(&S::error_ply,
           "error_ply",
           "PLY to write: RESULT.ply with the error of each point, to the truth or the target.")

@@ -10,8 +10,8 @@
 
 namespace ceres_ed {
 
-// Returns the flags and positional arguments; an error where they mix the two uses, or name half of
-// one.
+// Returns the settings of the flags and the positional arguments. It is an error if they mix the
+// two uses, or give only half of one.
 StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments);
 
 }  // namespace ceres_ed

@@ -19,12 +19,12 @@ std::string Line(const char* format, Values... values) {
   return line;
 }
 
-// A column of millimetres, or a dash.
+// Returns a cell of the table in millimetres, or a dash.
 std::string Millimetres(const std::optional<double>& metres) {
   return metres ? Line(" %8.3f", kMillimetresPerMetre * *metres) : std::string("        -");
 }
 
-// About a dozen of `count` rows, and always the last one.
+// Returns the indices of about a dozen of `count` rows. The last row is always among them.
 std::vector<std::size_t> ThinnedRows(std::size_t count) {
   std::vector<std::size_t> rows;
   const std::size_t step = std::max<std::size_t>(1, count / kTableFrames);
@@ -80,12 +80,13 @@ std::string TruthTable(const std::vector<FrameTruthError>& errors) {
     unknown += static_cast<std::size_t>(error.unknown);
   }
   const double share = points > 0 ? 100.0 * static_cast<double>(unknown) / points : 0.0;
-  return table + Line("born too far from the tissue to be tracked: %.2f %% of the points\n", share);
+  return table +
+         Line("created too far from the tissue to be tracked: %.2f %% of the points\n", share);
 }
 
 std::string CameraTable(const TrajectoryEvaluation& camera) {
   std::string table =
-      "Camera error (motion of camera and tissue trade against one another)\n"
+      "Camera error (errors in the motions of camera and tissue can compensate each other)\n"
       "                      frames   rmse mm   mean mm    max mm  mean deg   max deg\n";
   for (const auto& [name, error] : {std::pair("from the first frame", &camera.from_first_frame),
                                     std::pair("best rigid alignment", &camera.best_alignment)}) {
@@ -123,11 +124,12 @@ std::string DepthTable(const std::vector<DepthAgreement>& frames) {
 }
 
 std::string TrackText(const TrackEvaluation& tracks) {
-  std::string text = Line("Tracks in the picture: %d of %d followed (%d from a later frame on, ",
-                          tracks.followed,
-                          tracks.tracks,
-                          tracks.late) +
-                     Line("%d lost by the map in a frame)\n", tracks.lost);
+  std::string text =
+      Line("Tracks in the picture: %d of %d followed (%d only from a later frame on, ",
+           tracks.followed,
+           tracks.tracks,
+           tracks.late) +
+      Line("%d lost by the map in some frame)\n", tracks.lost);
   if (!tracks.error) return text;
   return text + Line("  error median %.2f px, mean %.2f, p95 %.2f, max %.2f\n",
                      tracks.error->p50,

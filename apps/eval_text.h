@@ -9,12 +9,12 @@
 
 namespace ceres_ed {
 
-// Returns a table of a pair: one row a distance, in the unit of the input, with the mean in percent
-// of the target's diagonal behind it.
+// Returns the table of a pair. It has a row for each set of distances, in the unit of the input,
+// which ends with the mean in percent of the target's diagonal.
 std::string EvaluationTable(const Evaluation& evaluation);
 
-// Returns tables of a sequence, in millimetres, pixels and degrees: every part that there is, a
-// dozen frames, and the sum over all of them.
+// Returns the tables of a sequence in millimetres, pixels and degrees: all parts that were
+// measured, with about a dozen frames and the statistics over all frames.
 std::string SequenceTables(const SequenceFigures& figures);
 
 }  // namespace ceres_ed

@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-// What the flags say, with the energies as text.
+// The settings in the flags, with the energies as text.
 struct FitFlags {
   FitSettings settings;
   bool quiet = false;
@@ -20,18 +20,20 @@ struct FitFlags {
 const OptionTable<FitSettings>& FitSettingsRows() {
   using S = FitSettings;
   static const OptionTable<S> rows({
-      Row(&S::output, "output", "PLY to write: SOURCE fitted, with all else it has; required.")
+      Row(&S::output,
+          "output",
+          "PLY to write: the fitted SOURCE with all its other data; required.")
           .Letter('o')
           .File(),
       Row(&S::warp, "warp", "JSON to write: the deformation, for ed_apply.").File(),
-      Row(&S::graph, "graph", "PLY to write: the nodes and edges, fitted.").File(),
-      Row(&S::report, "report", "JSON to write: what was done and how well.").File(),
+      Row(&S::graph, "graph", "PLY to write: the fitted nodes and edges.").File(),
+      Row(&S::report, "report", "JSON to write: the settings, errors and times of the fit.").File(),
       Row(&S::landmarks,
           "landmarks",
-          "CSV to read, rows source_index,x,y,z: places in the frame of TARGET.")
+          "CSV to read, rows source_index,x,y,z: positions in the frame of TARGET.")
           .File(),
       Row(&S::fixed, "fixed", "Text to read: indices of source points that must not move.").File(),
-      Row(&S::plugin, "plugin", "Shared object with more energies; several with ; between them.")
+      Row(&S::plugin, "plugin", "Shared object with more energies, or several, separated by ';'.")
           .File(),
       Nested(&S::options, FitOptions::Rows()),
   });
@@ -41,7 +43,7 @@ const OptionTable<FitSettings>& FitSettingsRows() {
 const OptionTable<FitFlags>& FitFlagsRows() {
   using C = FitFlags;
   static const OptionTable<C> rows({
-      Row(&C::quiet, "quiet", "No summary and no progress bar.").Letter('q').Main(),
+      Row(&C::quiet, "quiet", "Show no summary and no progress bar.").Letter('q').Main(),
       Nested(&C::settings, FitSettingsRows()),
       Row(&C::energy, "energy", "More energies: NAME[:param=value,...];... (see ed_list_energies).")
           .Main(),
@@ -51,7 +53,8 @@ const OptionTable<FitFlags>& FitFlagsRows() {
 
 const OptionFlags<FitFlags> kFlags(FitFlagsRows());
 
-// Two files of one name would overwrite each other.
+// Checks that there is an output, and that no two outputs have the same name, since one would
+// overwrite the other.
 Status CheckOutputNames(const FitSettings& settings) {
   if (settings.output.empty()) return Status::Error("flag --output is required");
   const std::string outputs[] = {settings.output, settings.warp, settings.graph, settings.report};

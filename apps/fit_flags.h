@@ -9,13 +9,13 @@
 
 namespace ceres_ed {
 
-// What the command line asks for: the run, and what the program shows of it.
+// The settings on the command line: those of the run, and those of what the program shows.
 struct FitCommand : FitSettings {
   bool quiet = false;
 };
 
-// Returns the flags as they are now, checked. Error: names the flag, its value and what was
-// expected.
+// Returns the settings in the flags after checking them. The error names the flag, its value and
+// what was expected.
 StatusOr<FitCommand> ReadFitFlags();
 
 }  // namespace ceres_ed

@@ -1,4 +1,4 @@
-// What ed_fit prints of a fit.
+// The text that ed_fit prints about a fit.
 #ifndef CERES_ED_APPS_FIT_TEXT_H_
 #define CERES_ED_APPS_FIT_TEXT_H_
 
@@ -8,7 +8,7 @@
 
 namespace ceres_ed {
 
-// Returns a few aligned lines on how the fit went.
+// Returns a summary of the fit in a few aligned lines.
 std::string FitSummary(const FitRun& run);
 
 }  // namespace ceres_ed

@@ -17,7 +17,7 @@
 namespace ceres_ed {
 namespace {
 
-// What the command line asks for: the run, and what the program shows of it.
+// The settings on the command line: those of the run, and those of what the program shows.
 struct SimulateFlags {
   SimulateSettings settings;
   bool quiet = false;
@@ -26,11 +26,11 @@ struct SimulateFlags {
 const OptionTable<SimulateSettings>& SettingsRows() {
   using S = SimulateSettings;
   static const OptionTable<S> rows({
-      Row(&S::output, "output", "Folder to write, made if it is not there; required.")
+      Row(&S::output, "output", "Folder to write, created if it does not exist; required.")
           .Letter('o')
           .File(),
-      Row(&S::overwrite, "overwrite", "Replace a sequence that is in --output already.").File(),
-      Row(&S::color, "color", "Also write color/.").File(),
+      Row(&S::overwrite, "overwrite", "Replace a sequence that is already in --output.").File(),
+      Row(&S::color, "color", "Also write colour pictures (color/).").File(),
       Nested(&S::options, SyntheticSequenceOptions::Rows()),
   });
   return rows;
@@ -40,7 +40,7 @@ const OptionTable<SimulateFlags>& SimulateRows() {
   using C = SimulateFlags;
   static const OptionTable<C> rows({
       Nested(&C::settings, SettingsRows()),
-      Row(&C::quiet, "quiet", "No progress bar and no summary.").Letter('q').Main(),
+      Row(&C::quiet, "quiet", "Show no summary and no progress bar.").Letter('q').Main(),
   });
   return rows;
 }
@@ -53,7 +53,7 @@ StatusOr<SimulateFlags> ReadFlags(const std::string& scene) {
     return Status::Error("unknown scene '" + scene + "', expected one of " +
                          ListNames<SyntheticSceneKind>(", "));
   }
-  // 0 stands for "not given" only.
+  // 0 is only the default, which means that the flag is not given.
   const auto frames = gflags::GetCommandLineFlagInfoOrDie("frames");
   if (!frames.is_default && std::atoi(frames.current_value.c_str()) < 1) {
     return Status::Error("--frames=" + frames.current_value + ", expected 1 or more");

@@ -1,4 +1,4 @@
-// What ed_simulate does.
+// Runs ed_simulate.
 #ifndef CERES_ED_APPS_SIMULATE_RUN_H_
 #define CERES_ED_APPS_SIMULATE_RUN_H_
 
@@ -9,7 +9,7 @@
 
 namespace ceres_ed {
 
-// Writes the sequence that the flags ask for; arguments: SCENE.
+// Writes the sequence that the flags describe. `arguments` is SCENE.
 Outcome RunSimulate(const std::vector<std::string>& arguments);
 
 }  // namespace ceres_ed

@@ -12,7 +12,7 @@
 namespace ceres_ed {
 namespace {
 
-// What the flags say, with the energies as text.
+// The settings in the flags, with the energies as text.
 struct SlamFlags {
   SlamSettings settings;
   ProgressStyle progress = ProgressStyle::kBar;
@@ -31,26 +31,27 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           "track",
           "PLY to read: points to follow, in metres in the first frame's camera; see tracks.csv.")
           .File(),
-      Row(&S::plugin, "plugin", "Shared object with more energies; several with ; between them.")
+      Row(&S::plugin, "plugin", "Shared object with more energies, or several, separated by ';'.")
           .File(),
-      Row(&S::live_every, "live_every", "Write every n-th live cloud.")
+      Row(&S::live_every, "live_every", "Write a live cloud every n frames.")
           .In(AtLeast(0))
           .Special(0, "none")
           .File(),
       Row(&S::checkpoint_every,
           "checkpoint_every",
-          "The number of frames between checkpoints; without any, results come at the end.")
+          "The number of frames between checkpoints; without any, the map and the report are "
+          "written at the end only.")
           .In(AtLeast(0))
           .Special(0, "none")
           .OnResume(ResumeRule::kFree)
           .File(),
-      Row(&S::resume, "resume", "Go on from the last checkpoint in --output.")
+      Row(&S::resume, "resume", "Continue from the last checkpoint in --output.")
           .OnResume(ResumeRule::kFree)
           .File(),
       Row(&S::overwrite, "overwrite", "Replace a finished result that is in --output.")
           .OnResume(ResumeRule::kFree)
           .File(),
-      Row(&S::time_limit_s, "time_limit_s", "It stops after this time, with exit code 4.")
+      Row(&S::time_limit_s, "time_limit_s", "Stop after this time, with exit code 4.")
           .In(AboveOrInfinite(0))
           .Unit("seconds")
           .Special(0, std::numeric_limits<double>::infinity(), "none")
@@ -67,10 +68,11 @@ const OptionTable<SlamFlags>& SlamFlagsRows() {
   static const OptionTable<C> rows({
       Row(&C::progress,
           "progress",
-          "What is shown on the way: a bar on a terminal, or a JSON object a frame on stdout.")
+          "What is shown during the run: a bar on a terminal, or a JSON object for each frame on "
+          "stdout.")
           .OnResume(ResumeRule::kFree)
           .Main(),
-      Row(&C::quiet, "quiet", "No summary, no progress bar, and no word on the sequence.")
+      Row(&C::quiet, "quiet", "Show no summary, no progress bar and no notes.")
           .Letter('q')
           .OnResume(ResumeRule::kFree)
           .Main(),
@@ -83,7 +85,7 @@ const OptionTable<SlamFlags>& SlamFlagsRows() {
 
 const OptionFlags<SlamFlags> kFlags(SlamFlagsRows());
 
-// The flags with that rule, a line each.
+// Returns the flags with this rule, one line for each.
 std::string FlagLines(ResumeRule rule) {
   std::string lines;
   for (const auto& info : OwnFlags()) {

@@ -11,7 +11,7 @@
 
 namespace ceres_ed {
 
-// How a run tells how far it is.
+// How a run shows its progress.
 enum class ProgressStyle { kBar, kJson, kNone };
 
 constexpr std::array<NamedValue<ProgressStyle>, 3> NamesOf(ProgressStyle) {
@@ -20,18 +20,18 @@ constexpr std::array<NamedValue<ProgressStyle>, 3> NamesOf(ProgressStyle) {
            {"none", ProgressStyle::kNone}}};
 }
 
-// What the command line asks for: the run, and what the program shows of it.
+// The settings on the command line: those of the run, and those of what the program shows.
 struct SlamCommand : SlamSettings {
   ProgressStyle progress = ProgressStyle::kBar;
   bool quiet = false;
 };
 
-// Returns the flags as they are now, checked. Error: names the flag, its value and what was
-// expected.
+// Returns the settings in the flags after checking them. The error names the flag, its value and
+// what was expected.
 StatusOr<SlamCommand> ReadSlamFlags();
 
-// Return a line `--name=value` for each flag that must stay when a run is resumed, and for each
-// that may change but is noted then (ResumeRule).
+// Return a line `--name=value` for each flag that must not change when a run is resumed, and for
+// each flag that may change but whose change is reported (ResumeRule).
 std::string FixedFlags();
 std::string StrategyFlags();
 

@@ -1,4 +1,4 @@
-// What ed_slam prints: a summary, and a line for each frame.
+// The texts that ed_slam prints: a summary, and a line for each frame.
 #ifndef CERES_ED_APPS_SLAM_TEXT_H_
 #define CERES_ED_APPS_SLAM_TEXT_H_
 
@@ -8,14 +8,14 @@
 
 namespace ceres_ed {
 
-// Returns a few aligned lines on how the run went.
+// Returns a summary of the run in a few aligned lines.
 std::string SlamSummary(const SlamRun& run);
 
-// Returns a frame as one line of JSON, with the names of frames.csv; `done` of `total` are behind
-// us.
+// Returns a frame as one line of JSON with the names of frames.csv. `done` of `total` frames are
+// finished.
 std::string ProgressJson(const FrameRecord& record, int done, int total, double frames_per_s);
 
-// Returns a few words on a frame for the progress bar.
+// Returns a few words about a frame for the progress bar.
 std::string ProgressNote(const FrameRecord& record, double frames_per_s);
 
 }  // namespace ceres_ed

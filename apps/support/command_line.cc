@@ -33,7 +33,7 @@ bool IsOwnFlag(const gflags::CommandLineFlagInfo& flag) {
   return flag.filename == kOptionFlagsFile;
 }
 
-// gflags brings twenty flags for help, completion and the environment, none of which works here.
+// gflags defines twenty flags for help, completion and the environment. None of them works here.
 bool IsGflagsHelper(const gflags::CommandLineFlagInfo& flag) {
   return EndsWith(flag.filename, "gflags.cc") || EndsWith(flag.filename, "gflags_reporting.cc") ||
          EndsWith(flag.filename, "gflags_completions.cc");
@@ -54,7 +54,8 @@ Status UnknownFlag(const std::string& name) {
                        (nearest.empty() ? "" : ", did you mean --" + nearest + "?"));
 }
 
-// What stands on a flag for a word that a number has; nothing where it is no such word.
+// Returns the text of the number for which `word` stands on a flag; nothing if it is not such a
+// word.
 std::optional<std::string> ValueOfWord(const std::string& flag, const std::string& word) {
   const OptionFlag* option = FindOptionFlag(flag);
   if (option == nullptr) return std::nullopt;
@@ -90,7 +91,8 @@ class Parser {
   }
 
  private:
-  // `word` begins with a dash. A flag in a file has its value behind `=` (depth > 0).
+  // Sets the flag in `word`, which begins with a dash. In a file (depth > 0), the value must follow
+  // `=`.
   Status TakeFlag(const std::string& word, int depth) {
     const std::size_t start = word[1] == '-' ? 2 : 1;
     const std::size_t equals = word.find('=');
@@ -134,7 +136,8 @@ class Parser {
     return Status::Ok();
   }
 
-  // One flag a line; empty lines and lines that begin with # say nothing.
+  // Sets the flags in a file with one flag in each line. Lines that are empty or begin with # are
+  // skipped.
   Status TakeFile(const std::string& path, int depth) {
     if (depth > kMaxFlagFileDepth) {
       return Status::Error("--flagfile=" + path + ": flag files name one another in a circle");
@@ -205,7 +208,7 @@ std::string DefaultOf(const OptionFlag& flag) {
   return ShortValue(info, info.default_value);
 }
 
-// "0 = automatic"
+// Returns a text such as "0 = automatic".
 std::string SpecialsText(const Option& option) {
   std::string text;
   for (const SpecialValue& special : option.specials) {
@@ -214,7 +217,8 @@ std::string SpecialsText(const Option& option) {
   return text;
 }
 
-// The sentence, the names or words that a value may have, the default and the unit.
+// Returns the sentence of a flag, the names or words that a value may have, the default and the
+// unit.
 std::string DescriptionOf(const OptionFlag& flag) {
   const Option& option = *flag.option;
   std::string text = option.doc;
@@ -227,7 +231,7 @@ std::string DescriptionOf(const OptionFlag& flag) {
   return text + " [" + fallback + (option.unit.empty() ? "" : " " + option.unit) + "]";
 }
 
-// "output, -o"
+// Returns a text such as "output, -o".
 std::string NamesOf(const Option& option) {
   return option.letter == 0 ? option.name : option.name + ", -" + option.letter;
 }
@@ -268,7 +272,7 @@ std::string RangeCell(const OptionFlag& flag) {
   return type == "text" || type == "true|false" ? type : flag.expected;
 }
 
-// A bar would end the cell.
+// Returns the text of a cell. A bar would end the cell, so it is escaped.
 std::string AsCell(const std::string& text) {
   std::string cell;
   for (const char letter : text)

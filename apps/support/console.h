@@ -1,4 +1,4 @@
-// What a program shows while it works: a progress bar, notes and warnings.
+// What a program shows during its work: a progress bar, notes and warnings.
 #ifndef CERES_ED_APPS_SUPPORT_CONSOLE_H_
 #define CERES_ED_APPS_SUPPORT_CONSOLE_H_
 
@@ -13,14 +13,14 @@
 
 namespace ceres_ed {
 
-// Nothing is ever printed into the progress bar: it is wiped first, and drawn again with the next
-// step.
+// Prints to the terminal. The progress bar is removed before anything is printed, and drawn again
+// at the next step.
 class Console {
  public:
-  // `quiet` shows neither the bar, nor notes, nor summaries; warnings are shown all the same.
+  // If `quiet`, neither the bar nor notes nor summaries are shown. Warnings are always shown.
   Console(std::string program, bool quiet) : program_(std::move(program)), quiet_(quiet) {}
 
-  // Draw a step of the bar, or wipe it.
+  // Draw a step of the bar, or remove the bar.
   void ShowProgress(int done, int total, const std::string& note);
   void WipeProgress();
 
@@ -37,11 +37,12 @@ class Console {
   std::optional<ProgressBar> bar_;
 };
 
-// Shows a run on a console; Ctrl-C stops it. `Observer` is RunObserver, or has more.
+// An observer that shows a run on a console. Ctrl-C stops the run. `Observer` is RunObserver, or a
+// class that is derived from it.
 template <typename Observer = RunObserver>
 class ConsoleObserver : public Observer {
  public:
-  // As of Console.
+  // The arguments are those of Console.
   ConsoleObserver(std::string program, bool quiet) : console_(std::move(program), quiet) {}
 
   void OnNote(const std::string& sentence) override { console_.Note(sentence); }

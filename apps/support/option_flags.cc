@@ -9,18 +9,19 @@ namespace ceres_ed {
 namespace {
 
 struct Registry {
-  // A deque: gflags keeps the addresses of the values.
+  // A deque does not move its elements: gflags stores the addresses of the values.
   std::deque<OptionFlag> storage;
   std::vector<const OptionFlag*> flags;
 };
 
-// Never destroyed: gflags reads the values for as long as the program runs.
+// Returns the registry. It is never destroyed, because gflags reads the values until the program
+// ends.
 Registry& GetRegistry() {
   static Registry* registry = new Registry;
   return *registry;
 }
 
-// What a flag has for the value of a field.
+// Converts the value of a field to the value of its flag.
 struct ToFlagValue {
   const Option& option;
 
@@ -40,7 +41,7 @@ struct ToFlagValue {
   OptionFlag::Value operator()(const NamedField& field) const { return field.get(field.value); }
 };
 
-// Sets a field to the value of a flag; returns whether it is one that is expected.
+// Sets a field to the value of its flag. Returns false if the value is not allowed.
 struct FromFlagValue {
   const OptionFlag& flag;
 

@@ -1,4 +1,4 @@
-// The flags of a program, made of the rows of its options (ceres_ed/util/options.h).
+// The flags of a program, which are made from the rows of its options (ceres_ed/util/options.h).
 #ifndef CERES_ED_APPS_SUPPORT_OPTION_FLAGS_H_
 #define CERES_ED_APPS_SUPPORT_OPTION_FLAGS_H_
 
@@ -13,40 +13,41 @@
 
 namespace ceres_ed {
 
-// The file that gflags is told for every such flag: it sets them apart from those of libraries.
+// The file name that gflags is told for these flags. It distinguishes them from flags of libraries.
 constexpr char kOptionFlagsFile[] = "ceres_ed options";
 
-// A flag that gflags knows. Its address never changes.
+// A flag that is registered with gflags. Its address never changes.
 struct OptionFlag {
   using Value = std::variant<bool, gflags::int32, gflags::uint64, double, std::string>;
 
-  // Must outlive the program.
+  // It must exist until the program ends.
   const Option* option = nullptr;
-  // "a finite number > 0 (0 = unlimited)".
+  // The allowed values, for example "a finite number > 0 (0 = unlimited)".
   std::string expected;
-  // The names of an enum, with commas between them; empty where there are none.
+  // The names of an enum or the words for a bool, separated by commas; empty if there are none.
   std::string names;
   Value value;
   Value default_value;
 };
 
-// Makes a flag of an option. Its default is the value of `field`, which is copied.
+// Registers a flag for an option. Its default is the value of `field`, which is copied.
 const OptionFlag* RegisterOptionFlag(const Option& option, const OptionField& field);
 
-// Sets `field` to the value of a flag. Error: "--<name>=<value>, expected <what>".
+// Sets `field` to the value of a flag. The error is "--<name>=<value>, expected <what>".
 Status ReadOptionFlag(const OptionFlag& flag, const OptionField& field);
 
-// Returns the flags that have been registered, in that order: those of the program.
+// Returns the registered flags, which are those of the program, in the order of registration.
 const std::vector<const OptionFlag*>& RegisteredOptionFlags();
 
-// Returns the flag of that name or of that one letter, or null.
+// Returns the flag with this name or this letter, or null.
 const OptionFlag* FindOptionFlag(const std::string& name);
 
-// The flags of a struct of settings. An object of namespace scope makes them before main() begins.
+// The flags of a struct of settings. An object at namespace scope registers them before main()
+// begins.
 template <typename Settings>
 class OptionFlags {
  public:
-  // `table` must outlive the program.
+  // `table` must exist until the program ends.
   explicit OptionFlags(const OptionTable<Settings>& table) : table_(table) {
     Settings defaults;
     for (const auto& row : table_) {
@@ -55,7 +56,7 @@ class OptionFlags {
     }
   }
 
-  // Returns the settings that the flags ask for now. Error: names the first flag that is out of its
+  // Returns the settings that the flags have now. The error names the first flag that is out of its
   // range, its value, and what was expected.
   StatusOr<Settings> Read() const {
     Settings settings;
@@ -71,7 +72,7 @@ class OptionFlags {
 
  private:
   const OptionTable<Settings>& table_;
-  // One for each row; null for one that is no flag.
+  // One for each row; null for a row that is not a flag.
   std::vector<const OptionFlag*> flags_;
 };
 

@@ -17,14 +17,15 @@
 namespace ceres_ed {
 namespace {
 
-// Keeps memory that was freed. Frames and rounds need the same again and again, and glibc would
-// hand it back to the system each time, only to fetch it page by page: dear in a virtual machine.
-// A matter of the process, so programs decide it and the library doesn't.
+// Makes glibc keep memory that was freed. Frames and rounds need the same memory again and again.
+// Otherwise glibc would return it to the system each time and then request it again page by page,
+// which is slow in a virtual machine. The settings apply to the whole process, so the programs make
+// them, and the library does not.
 void ConfigureMemory() {
 #ifdef __GLIBC__
   constexpr int kNever = 1 << 30;
   constexpr int kHeapStep = 16 << 20;
-  // NOLINTBEGIN(concurrency-mt-unsafe): there is one thread yet.
+  // NOLINTBEGIN(concurrency-mt-unsafe): there is only one thread so far.
   mallopt(M_TRIM_THRESHOLD, kNever);
   mallopt(M_MMAP_THRESHOLD, kNever);
   mallopt(M_TOP_PAD, kHeapStep);
@@ -32,7 +33,7 @@ void ConfigureMemory() {
 #endif
 }
 
-// A signal handler can reach nothing else.
+// A global variable, because a signal handler cannot reach anything else.
 std::atomic<bool> stop_requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler may not wait for a lock");
 
@@ -109,7 +110,7 @@ int RunProgram(const ProgramInfo& info,
 
 void InstallStopHandler() {
   std::signal(SIGTERM, HandleStopSignal);
-  // A shell starts background jobs with SIGINT ignored: the Ctrl-C is meant for others.
+  // A shell starts background jobs with SIGINT ignored, because Ctrl-C is meant for other programs.
   if (std::signal(SIGINT, HandleStopSignal) == SIG_IGN) std::signal(SIGINT, SIG_IGN);
 }
 

@@ -1,4 +1,4 @@
-// What every program shares: flags, --help, --version, exit codes, Ctrl-C.
+// The parts that all programs share: flags, --help, --version, exit codes and Ctrl-C.
 #ifndef CERES_ED_APPS_SUPPORT_PROGRAM_H_
 #define CERES_ED_APPS_SUPPORT_PROGRAM_H_
 
@@ -10,36 +10,36 @@
 
 namespace ceres_ed {
 
-// What --help says of a program beside its flags.
+// The text that --help shows in addition to the flags.
 struct ProgramInfo {
-  // "ed_fit"
+  // The name, for example "ed_fit".
   std::string name;
-  // What follows the name on the usage line: "SOURCE [TARGET] --output=OUT.ply".
+  // The text after the name on the usage line, for example "SOURCE [TARGET] --output=OUT.ply".
   std::string arguments;
-  // One paragraph.
+  // The description in one paragraph.
   std::string description;
-  // One command line that works.
+  // A command line that works.
   std::string example;
-  // How many positional arguments there may be.
+  // The smallest and the largest number of positional arguments.
   int min_arguments = 0;
   int max_arguments = 0;
 };
 
 // Parses the command line, runs `body` with the positional arguments, and returns the exit code for
-// main(). Flags are those of option_flags.h (of gflags' own only --flagfile, of glog's all, but
-// hidden). --help and --version print to stdout and end with 0. A bad command line,
-// an outcome other than done, and an exception that escapes `body` print one line on stderr:
-// "ed_fit: <sentence>".
+// main(). The flags are those of option_flags.h and --flagfile of gflags; the flags of glog work,
+// too, but --help does not show them. --help and --version print to stdout and end with 0. If the
+// command line is bad, if the outcome is not done, or if an exception leaves `body`, one line is
+// printed to stderr: "ed_fit: <sentence>".
 int RunProgram(const ProgramInfo& info,
                int argc,
                char** argv,
                const std::function<Outcome(const std::vector<std::string>& arguments)>& body);
 
-// Has the first SIGINT or SIGTERM ask the program to stop; the second one kills. Until this is
-// called the signals do what they always did.
+// Makes the first SIGINT or SIGTERM request that the program stop, and the second one kill it.
+// Before this call the signals have their usual effect.
 void InstallStopHandler();
 
-// Returns whether a signal has asked the program to stop.
+// Returns whether a signal has requested that the program stop.
 bool StopRequested();
 
 }  // namespace ceres_ed

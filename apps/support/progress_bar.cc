@@ -11,7 +11,7 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kBarWidth = 24;
-// Wipes what a longer line has left to the right.
+// Removes the rest of a longer line.
 constexpr char kClearToEndOfLine[] = "\x1b[K";
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A progress line for people who watch a terminal.
+// A progress bar for terminals.
 #ifndef CERES_ED_APPS_SUPPORT_PROGRESS_BAR_H_
 #define CERES_ED_APPS_SUPPORT_PROGRESS_BAR_H_
 
@@ -6,10 +6,11 @@
 
 namespace ceres_ed {
 
-// One line on stderr that is drawn over and wiped at the end. Silent when stderr is no terminal.
+// One line on stderr that is drawn anew at each step and removed at the end. Nothing is drawn if
+// stderr is not a terminal.
 class ProgressBar {
  public:
-  // `total` > 0 steps are expected; `quiet` draws nothing anywhere.
+  // `total` > 0 is the number of steps. If `quiet`, nothing is drawn.
   ProgressBar(std::string title, int total, bool quiet);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -17,7 +18,7 @@ class ProgressBar {
 
   int total() const { return total_; }
 
-  // Shows that `done` steps are behind us, with a few words on how it goes.
+  // Shows that `done` steps are finished, and a few words about the progress.
   void Update(int done, const std::string& note);
 
  private:

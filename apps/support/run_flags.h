@@ -6,7 +6,7 @@
 
 namespace ceres_ed {
 
-// Returns the program's own flags as they are now, by name.
+// Returns the program's own flags with their current values, sorted by name.
 RunFlags CurrentFlags();
 
 }  // namespace ceres_ed

@@ -47,8 +47,9 @@ Status CheckScale(const FitInput& input, const FitOptions& options) {
   const double ratio = std::max(source / target, target / source);
   if (ratio <= kMaxScaleRatio || options.rigid.with_scale) return Status::Ok();
   std::ostringstream message;
-  message << "source and target share no scale: their diagonals are " << source << " and " << target
-          << " (at most a factor of " << kMaxScaleRatio << " is expected; are the units the same?)";
+  message << "source and target have very different sizes: their diagonals are " << source
+          << " and " << target << " (at most a factor of " << kMaxScaleRatio
+          << " is expected; are the units the same?)";
   return Status::Error(message.str());
 }
 

@@ -144,8 +144,8 @@ bool SyntheticSequenceOptions::IsValid(std::string* error) const {
   std::ostringstream message;
   const bool is_strip = kind == SyntheticSceneKind::kStrip;
   if (!is_strip && nodes_hint != 0) {
-    message << "nodes_hint is " << nodes_hint << ", but " << NameOf(kind)
-            << " has a length of its own, expected it with strip only";
+    message << "nodes_hint is " << nodes_hint << ", but the size of " << NameOf(kind)
+            << " is fixed, expected 0 (it is for strip only)";
   } else if (is_strip && vertices != 0) {
     message << "vertices is " << vertices << ", but a strip has one every 1.5 mm, expected 0";
   } else if (is_strip) {

@@ -120,7 +120,7 @@ TEST_F(EdFitBadInputTest, CloudsThatAreNoUseAreNamed) {
   ExpectBadSource(RingPly(holes), {"not finite", "288"});
   RingOptions millimetres;
   millimetres.scale = 1000.0;
-  ExpectBadSource(RingPly(millimetres), {"scale", "units"});
+  ExpectBadSource(RingPly(millimetres), {"sizes", "units"});
 }
 
 TEST_F(EdFitBadInputTest, PointListsAreCheckedLineByLine) {

@@ -1,5 +1,5 @@
 // An energy of your own: a floor that no point may sink through, written as a functor on a warped
-// point. A sheet is held at one edge and pulled down in the middle; the free half goes on down,
+// point. A sheet is held at one edge and pulled down in the middle. Its free half sinks even lower,
 // unless there is a floor.
 #include <ceres_ed/energy/custom_energy.h>
 #include <ceres_ed/energy/energy_registry.h>
@@ -17,7 +17,7 @@ using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a program, n
 
 namespace {
 
-// What the energy says of one point. Ceres differentiates it; the library supplies the warp.
+// The residual of one point. Ceres differentiates it, and the library supplies the warp.
 struct FloorFunctor {
   static constexpr int kNumResiduals = 1;
 
@@ -30,7 +30,7 @@ struct FloorFunctor {
   double height;
 };
 
-// What users are told about it, and where its residuals are: on every point. A prior, for it
+// Describes the energy to users, and adds a residual on every point. It is a prior, because it
 // observes nothing. The same function makes a plugin: CERES_ED_PLUGIN(RegisterFloor).
 Status RegisterFloor(EnergyRegistry* registry) {
   EnergyInfo info;
@@ -49,7 +49,7 @@ Status RegisterFloor(EnergyRegistry* registry) {
 constexpr int kSide = 21;
 constexpr int kMiddle = kSide / 2;
 
-// A sheet of kSide x kSide points around the origin with a diagonal of 1.
+// Returns a sheet of kSide x kSide points around the origin with a diagonal of 1.
 PointCloud MakeSheet() {
   const double step = 1.0 / (std::sqrt(2.0) * (kSide - 1));
   PointCloud sheet;
@@ -64,7 +64,7 @@ PointCloud MakeSheet() {
   return sheet;
 }
 
-// The height of the lowest point of the fitted sheet.
+// Returns the height of the lowest point of the fitted sheet.
 double LowestPoint(const EnergyRegistry& registry, const std::vector<EnergySpec>& energies) {
   FitInput input;
   input.source = MakeSheet();
@@ -90,8 +90,9 @@ int main() {
   CHECK(RegisterFloor(&registry).ok());
 
   EnergyClaims claims;
-  claims.parameters["height"] = 5.0;           // all points are below the floor,
-  claims.squared_norm_at_rest = std::nullopt;  // and pay for it at rest, too
+  // All points are below this floor, so their residuals are not zero even at rest.
+  claims.parameters["height"] = 5.0;
+  claims.squared_norm_at_rest = std::nullopt;
   const std::vector<std::string> violations = CheckEnergyLaws(registry, "floor", claims);
   for (const std::string& violation : violations) std::printf("%s\n", violation.c_str());
 

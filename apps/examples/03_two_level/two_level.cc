@@ -1,4 +1,4 @@
-// Batch against two-level: a heart of which a camera sees less than half, fitted both ways.
+// Compares a batch fit with a two-level fit: a camera sees less than half of a heart.
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/bounding_box.h>
@@ -13,7 +13,7 @@ using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a program, n
 
 namespace {
 
-// Mean distance to the truth in percent of the target's diagonal.
+// Returns the mean distance to the truth in percent of the target's diagonal.
 double ErrorPercent(const FitResult& fit, const SyntheticPair& pair) {
   PointCloud fitted;
   fitted.points = fit.points;
@@ -57,6 +57,6 @@ int main() {
   const double two_level_error = ErrorPercent(two_level, pair);
   Print("batch", batch, batch_error);
   Print("two_level", two_level, two_level_error);
-  // Nothing done at all would leave 5.7 %.
+  // Without any fit the error would be 5.7 %.
   return two_level_error < 2.9 && std::abs(two_level_error - batch_error) < 0.1 ? 0 : 1;
 }

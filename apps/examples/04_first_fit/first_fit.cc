@@ -1,4 +1,5 @@
-// Fits, keeps the deformation, and takes another cloud along: what ed_fit and ed_apply do.
+// Fits two clouds, saves the deformation, and applies it to another cloud, as ed_fit and ed_apply
+// do.
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/warp_io.h>
@@ -32,12 +33,12 @@ int main(int argc, char** argv) {  // first_fit SOURCE.ply TARGET.ply OTHER.ply 
               fit->warp.graph.num_nodes(),
               fit->matches.rms_plane);
 
-  // The deformation outlives the program...
+  // The deformation can be saved to a file and read again, also by another program.
   if (const Status status = WriteWarp(argv[4], fit->warp); !status.ok()) return Fail(status);
   const StatusOr<Warp> warp = ReadWarp(argv[4]);
   if (!warp.ok()) return Fail(warp.status());
 
-  // ...and moves whatever lies in the frame of the source.
+  // It deforms any other cloud in the frame of the source.
   StatusOr<LoadedCloud> other = LoadCloud(argv[3]);
   if (!other.ok()) return Fail(other.status());
   if (const Status status = ApplyWarp(*warp, &other->cloud); !status.ok()) return Fail(status);

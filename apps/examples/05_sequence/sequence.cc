@@ -1,4 +1,5 @@
-// Follows the camera and the tissue of a depth sequence, and writes the map: the core of ed_slam.
+// Tracks the camera and the tissue of a depth sequence, and writes the map. This is the core of
+// ed_slam.
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/io/sequence/depth_sequence.h>
@@ -33,7 +34,7 @@ int main(int argc, char** argv) {  // sequence FOLDER MAP.ply
   int tracked = 0;
   for (int i = 0; i < (*sequence)->num_frames(); ++i) {
     const StatusOr<DepthFrame> picture = (*sequence)->Load(i);
-    if (!picture.ok()) continue;  // damaged: go on with the next one
+    if (!picture.ok()) continue;  // a damaged frame is skipped
     SlamFrame frame;
     frame.number = picture->number;
     frame.depth = &picture->depth;
@@ -48,7 +49,7 @@ int main(int argc, char** argv) {  // sequence FOLDER MAP.ply
     if (report.status == FrameStatus::kTracked) ++tracked;
   }
 
-  (*slam)->CatchUp();  // hidden nodes that were left behind follow
+  (*slam)->CatchUp();  // moves hidden nodes that have not been moved yet
   const Status saved = WriteMapCloud(argv[2], ExportMap(**slam));
   if (!saved.ok()) return Fail(saved);
   return tracked + 1 == (*sequence)->num_frames() ? 0 : 1;

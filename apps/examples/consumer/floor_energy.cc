@@ -6,7 +6,7 @@ using namespace ceres_ed;  // NOLINT(google-build-using-namespace): a plugin, no
 
 namespace {
 
-// What the energy says of one warped point.
+// The residual of one warped point.
 struct FloorFunctor {
   static constexpr int kNumResiduals = 1;
   template <typename T>
