@@ -4,6 +4,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <sstream>
 #include <thread>
 
@@ -109,6 +110,14 @@ ProgramResult RunProgramFile(const std::string& program,
   result.out = out.Contents();
   result.err = err.Contents();
   return result;
+}
+
+bool HasTerminals() {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+  if (terminal < 0) return false;
+  const bool usable = grantpt(terminal) == 0 && unlockpt(terminal) == 0;
+  close(terminal);
+  return usable;
 }
 
 ProgramResult RunOnTerminal(const std::string& program, const std::vector<std::string>& arguments) {

@@ -37,6 +37,9 @@ ProgramResult RunProgramFile(const std::string& program,
                              const std::vector<std::string>& arguments,
                              const RunOptions& options = {});
 
+// Returns whether this machine can make terminals; a chroot without /dev/pts cannot.
+bool HasTerminals();
+
 // Returns the outcome of `program` on a terminal of its own; `out` is all that the terminal got.
 ProgramResult RunOnTerminal(const std::string& program, const std::vector<std::string>& arguments);
 
