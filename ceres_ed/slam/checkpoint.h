@@ -127,11 +127,11 @@ class CheckpointArchive {
     static constexpr std::size_t kSize = 1;
     static T* Data(T* value) { return value; }
   };
-  template <typename T, int kRows>
-  struct Span<Eigen::Matrix<T, kRows, 1>> {
+  template <typename T, int kRows, int kColumns>
+  struct Span<Eigen::Matrix<T, kRows, kColumns>> {
     using Scalar = T;
-    static constexpr std::size_t kSize = kRows;
-    static T* Data(Eigen::Matrix<T, kRows, 1>* value) { return value->data(); }
+    static constexpr std::size_t kSize = kRows * kColumns;
+    static T* Data(Eigen::Matrix<T, kRows, kColumns>* value) { return value->data(); }
   };
   template <typename T, std::size_t kCount>
   struct Span<T[kCount]> {

@@ -120,6 +120,20 @@ void FeaturePoints::Exchange(CheckpointArchive* archive) {
   archive->Column(
       "weights", &features_, [](Feature & f) -> auto& { return f.weights; });
   archive->Column("num_nodes", &features_, [](Feature& f) -> int& { return f.num_nodes; });
+  archive->Column(
+      "rest_from_pixel", &features_, [](Feature & f) -> auto& { return f.rest_from_pixel; });
+  archive->Column(
+      "fine", &features_, [](Feature & f) -> auto& { return f.patch.levels[0]; });
+  archive->Column(
+      "coarse", &features_, [](Feature & f) -> auto& { return f.patch.levels[1]; });
+  archive->Column(
+      "descriptor", &features_, [](Feature & f) -> auto& { return f.descriptor; });
+  archive->Column("misses", &features_, [](Feature& f) -> int& { return f.misses; });
+  archive->Column("birth", &features_, [](Feature& f) -> int& { return f.birth; });
+  archive->Array("followed", &followed_);
+  archive->Value("births", &births_);
+  archive->Value("pictures", &frame_);
+  if (!archive->saving()) Index();
   archive->Leave();
 }
 
@@ -188,6 +202,10 @@ void Tracker::Exchange(CheckpointArchive* archive) {
   ExchangePose("world_from_map", &world_from_map_, archive);
   ExchangePose("camera_step", &camera_step_, archive);
   archive->Value("points_before", &points_before_);
+  archive->Value("proving", &proving_);
+  int gap = gap_ ? 1 : 0;
+  archive->Value("gap", &gap);
+  gap_ = gap != 0;
   archive->Value("nodes_before_growth", &nodes_before_growth_);
   map_.Exchange(archive);
   features_.Exchange(archive);

@@ -44,9 +44,7 @@ const OptionTable<LevelsOptions>& LevelsOptions::Rows() {
           "w_node_prior",
           "The weight that holds hidden nodes where they are thought to be.")
           .In(AtLeast(0)),
-      Row(&O::plane_weight, "w_data", "The weight of the distance to the depth.")
-          .In(AtLeast(0))
-          .Main(),
+      Row(&O::plane_weight, "w_data", "The weight of the distance to the depth.").In(AtLeast(0)),
       Row(&O::feature_weight, "w_feature", "The weight of a corner compared with a plane.")
           .In(AtLeast(0)),
       Row(&O::prior_rotation_deg, "prior_rotation_deg", "The spread of the pose prior: rotation.")
@@ -172,6 +170,7 @@ const OptionTable<SlamOptions>& SlamOptions::Rows() {
           "camera",
           "Whether the camera is estimated, never moves, or moves as the sequence says.")
           .Main(),
+      Row(&O::rigid, "rigid", "The scene does not deform: only the camera moves.").Main(),
       Row(&O::node_spacing, "node_spacing", "The distance between nodes.")
           .In(AtLeast(0))
           .Unit("metres")

@@ -72,7 +72,7 @@ struct LevelsOptions {
   double node_prior_weight = 0.02;
   double plane_weight = 1.0;
   // The weight of one feature relative to one plane.
-  double feature_weight = 4.0;
+  double feature_weight = 8.0;
   // The standard deviations of the pose prior, in degrees and map units; > 0, defaults 0.5 and 0.1.
   double prior_rotation_deg = 0.5;
   double prior_translation = 0.1;
@@ -185,6 +185,9 @@ struct TissueMemoryOptions {
 struct SlamOptions {
   // How the pose of the camera is determined; default kEstimate.
   CameraMode camera = CameraMode::kEstimate;
+  // Whether the scene is rigid: the nodes do not move, and only the camera is tracked; default
+  // false.
+  bool rigid = false;
   // The node spacing in metres, >= 0. With 0, the default, about `nodes_in_view` (>= 4, default
   // 250) nodes cover the part that the first frame shows.
   double node_spacing = 0.0;

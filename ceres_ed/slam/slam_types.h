@@ -99,6 +99,14 @@ struct FrameReport {
   int map_points = 0;
   int inliers = 0;
   int features = 0;
+  // The share of the observed surface that has a counterpart in the map, and the share of the
+  // points in view, where the surface is measured, that lie on it.
+  double explained = 0.0;
+  double overlap = 0.0;
+  // The number of directions, of the 6 of the camera's motion, that the frame does not determine.
+  int weak_directions = 0;
+  // The share of the points in view that were seen in too few frames to be certain.
+  double tentative = 0.0;
   // The root mean square distance of the inliers from their planes, in metres.
   double rms_plane = 0.0;
   // The energy of Level I, without unit.
@@ -130,10 +138,12 @@ struct MapMemory {
   std::size_t bindings = 0;
   // For each node the points that are bound most strongly to it, and the free slots.
   std::size_t point_lists = 0;
+  // The corners of the pictures with their looks (FeaturePoints).
+  std::size_t corners = 0;
 
   std::size_t OfNodes() const { return nodes + edges + node_index + tissue_memory + levels; }
   std::size_t OfPoints() const { return points + bindings + point_lists; }
-  std::size_t Total() const { return OfNodes() + OfPoints(); }
+  std::size_t Total() const { return OfNodes() + OfPoints() + corners; }
 };
 
 }  // namespace ceres_ed

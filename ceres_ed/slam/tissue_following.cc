@@ -1,6 +1,7 @@
 // The changes of the map in a frame after the camera has been found: Level I and II, fusion,
 // growth.
 #include <ceres_ed/slam/frame/association.h>
+#include <ceres_ed/slam/frame/relocalization.h>
 #include <ceres_ed/slam/tracker.h>
 #include <ceres_ed/util/statistics.h>
 #include <ceres_ed/util/timer.h>
@@ -20,11 +21,14 @@ constexpr double kInlierWidth = 3.0;
 constexpr double kLossWidth = 5.0;
 // The smallest noise, in map units; no sensor is better than this.
 constexpr double kLeastNoise = 1e-4;
+// The least widths of the losses, and the least deviation of corners, in map units. The spread of
+// all residuals is that of what stands still; a width from this alone would leave behind what moves
+// elsewhere.
+constexpr double kLeastLossWidth = 1.0;
+constexpr double kLeastFeatureDeviation = 0.2;
 // A frame ends when a round reduces the energy by less than this share.
 constexpr int kLeastRounds = 2;
 constexpr double kSmallGain = 0.1;
-// The number of frames in which a point is seen through before it is removed.
-constexpr int kMaxContradictions = 5;
 
 }  // namespace
 
@@ -107,13 +111,18 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
     report->iterations += level.iterations;
     report->times.level1 += timer.Restart();
   };
+  // The rigid alignment of the frame is what is known of the camera beside the data.
+  observations.camera_prior = pose;
   for (int round = 0; round < options_.rounds; ++round) {
     const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
+    const CameraPose prior = observations.camera_prior;
     observations = Observe(association);
-    observations.plane_width = kLossWidth * std::max(association.deviation, noise);
+    observations.camera_prior = prior;
+    observations.plane_width =
+        std::max(kLossWidth * std::max(association.deviation, noise), kLeastLossWidth);
     observations.features = features_.Observations();
-    observations.feature_width = kLossWidth * std::max(FeatureDeviation(), noise);
-    observations.camera_prior = pose;
+    observations.feature_width =
+        std::max(kLossWidth * std::max(FeatureDeviation(), noise), kLeastLossWidth);
     report->times.associate += timer.Restart();
     memory_.Look(levels_->point_relevant(), map_);
     const LevelReport level = levels_->SolveLevelOne(observations, &memory_, &map_);
@@ -142,7 +151,8 @@ void Tracker::FollowHidden(bool catch_up, FrameReport* report) {
   report->times.warp += timer.Restart();
 }
 
-void Tracker::FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report) {
+// Level I and II.
+void Tracker::Deform(const ObservedSurface& surface, bool catch_up, FrameReport* report) {
   memory_.BeginFrame(levels_->point_relevant(), &map_);
   levels_->BeginFrame();
   const FrameObservations observations = FollowSeen(surface, report);
@@ -151,15 +161,19 @@ void Tracker::FollowTissue(const ObservedSurface& surface, bool catch_up, FrameR
   if (batch_ != nullptr && report->number % options_.verify_every == 0) {
     Verify(observations, report);
   }
+  memory_.Keep(levels_->point_relevant(), map_);
+}
+
+void Tracker::FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report) {
+  if (!options_.rigid) Deform(surface, catch_up, report);
   Timer timer;
   const double noise = std::max(surface.noise(), kLeastNoise);
-  memory_.Keep(levels_->point_relevant(), map_);
-  features_.DropOutliers(map_, noise);
+  features_.DropOutliers(map_, std::max(noise, kLeastFeatureDeviation));
   const AssociationResult association =
       Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());
-  Measure(association, noise, report);
+  Measure(surface, association, noise, report);
   report->times.associate += timer.Restart();
-  Fuse(association, surface.noise());
+  Fuse(association, report->number, surface.noise());
   report->times.warp += timer.Restart();
 }
 
@@ -175,7 +189,10 @@ void Tracker::Verify(const FrameObservations& observations, FrameReport* report)
 }
 
 // Measures how well the deformed map lies on the surface.
-void Tracker::Measure(const AssociationResult& association, double noise, FrameReport* report) {
+void Tracker::Measure(const ObservedSurface& surface,
+                      const AssociationResult& association,
+                      double noise,
+                      FrameReport* report) {
   const double width = kInlierWidth * std::max(association.deviation, noise);
   double squares = 0.0;
   for (const Association& m : association.matches) {
@@ -184,20 +201,34 @@ void Tracker::Measure(const AssociationResult& association, double noise, FrameR
     squares += m.distance * m.distance;
   }
   report->points = static_cast<int>(association.matches.size());
+  PoseQualityOptions judge;
+  judge.point_spacing = options_.growth.point_spacing;
+  judge.trust_gaps = true;
+  const PoseQuality quality = QualityOf(association, visible_.size(), surface, judge);
+  report->overlap = quality.overlap;
+  int tentative = 0;
+  for (const VisiblePoint& point : visible_) {
+    if (map_.point(point.slot).IsTentative()) ++tentative;
+  }
+  report->tentative = tentative / std::max(1.0, static_cast<double>(visible_.size()));
   points_before_ = report->points;
   report->rms_plane = std::sqrt(squares / std::max(1, report->inliers)) * unit_;
   report->features = features_.size();
 }
 
 // Averages the points of the map with the observed surface (a running mean), and removes points
-// that the camera sees through.
-void Tracker::Fuse(const AssociationResult& association, double noise) {
+// that the camera sees through. A tentative point has to lie on the surface wherever that is
+// measured.
+void Tracker::Fuse(const AssociationResult& association, int frame, double noise) {
   const CameraPose& pose = map_.state().camera_from_map;
   const double width = kInlierWidth * std::max(association.deviation, noise);
   for (const Association& m : association.matches) {
-    if (std::abs(m.distance) > width) continue;
     const int slot = visible_[m.visible].slot;
     MapPoint point = map_.point(slot);
+    if (std::abs(m.distance) > width) {
+      if (point.IsTentative()) Contradict(m.visible, point);
+      continue;
+    }
     const PointBinding binding = map_.binding(slot);
     const LocalWarp warp = map_.WarpOf(binding);
     const double share = m.weight / (point.weight + m.weight);
@@ -210,24 +241,32 @@ void Tracker::Fuse(const AssociationResult& association, double noise) {
     point.normal = ((1.0 - share) * point.normal + share * normal.normalized()).normalized();
     point.weight = std::min(point.weight + m.weight, options_.max_point_weight);
     point.contradictions = std::max(0, point.contradictions - 1);
+    ++point.sightings;
+    point.last_seen = frame;
     map_.SetPoint(slot, point);
   }
-  for (const int i : association.seen_through) {
-    MapPoint point = map_.point(visible_[i].slot);
-    ++point.contradictions;
-    map_.SetPoint(visible_[i].slot, point);
-    if (point.contradictions < kMaxContradictions) continue;
-    map_.RemovePoint(visible_[i].slot);
-    visible_[i].slot = -1;
-  }
+  for (const int i : association.seen_through) Contradict(i, map_.point(visible_[i].slot));
   const auto gone = [](const VisiblePoint& point) { return point.slot < 0; };
   visible_.erase(std::remove_if(visible_.begin(), visible_.end(), gone), visible_.end());
+}
+
+void Tracker::Contradict(int visible, MapPoint point) {
+  const int slot = visible_[visible].slot;
+  ++point.contradictions;
+  if (!point.IsRefuted()) {
+    map_.SetPoint(slot, point);
+    return;
+  }
+  map_.RemovePoint(slot);
+  visible_[visible].slot = -1;
 }
 
 void Tracker::Grow(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report) {
   Timer timer;
   nodes_before_growth_ = map_.graph().num_nodes();
-  GrowMap(visible_, surface, frame.color, frame.number, options_.growth, &map_);
+  const MapGrowthResult growth =
+      GrowMap(visible_, surface, frame.color, frame.number, options_.growth, &map_);
+  report->explained = growth.explained;
   report->times.grow += timer.Restart();
   if (frame.color.empty() || !options_.features) return;
   if (report->status == FrameStatus::kInitialized) {

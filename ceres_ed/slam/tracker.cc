@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace ceres_ed {
@@ -13,14 +14,49 @@ namespace {
 // A pose that was found by a search replaces a tracked pose if its score is better by this factor,
 // and if it explains this share of the points of the frame before.
 constexpr double kClearlyBetter = 1.2;
+// The same for a tracked pose that could be accepted and is where it was expected: within this
+// distance of the prediction, in the coordinates of MotionInformation (map units).
+constexpr double kMuchBetter = 2.0;
+constexpr double kSmoothMotion = 2.0;
+// The number of frames in which a pose that was found by a search has to explain what is seen
+// before the map follows.
+constexpr int kProvingFrames = 5;
 constexpr double kLeastOfBefore = 0.4;
+// A tracked pose is right if at least this many corners were followed, and this share of them lies
+// within this distance (map units) of the map.
+constexpr int kFewestCorners = 20;
+constexpr double kAgreeingCorners = 0.6;
+constexpr double kCornerDistance = 0.5;
+// The share of the corners that are searched for at a pose and must be found in their places, so
+// that it is not chance.
+constexpr double kRecognizedShare = 0.1;
 
+// Returns the number of corners that lie where a pose and the map expect them.
+int NumAgreeing(const std::vector<PointMatch>& matches, const CameraPose& camera_from_map) {
+  const auto agrees = [&](const PointMatch& m) {
+    return m.weight > 0.0 && (camera_from_map * m.in_map - m.in_camera).norm() < kCornerDistance;
+  };
+  return static_cast<int>(std::count_if(matches.begin(), matches.end(), agrees));
+}
+
+// Returns whether the corners confirm a pose.
+bool CornersAgree(const std::vector<PointMatch>& matches, const CameraPose& camera_from_map) {
+  const int count = NumAgreeing(matches, camera_from_map);
+  return count >= kFewestCorners && count >= kAgreeingCorners * static_cast<double>(matches.size());
+}
+
+// Patches farther away than this many times the median depth are not a part of the scene, but of
+// its background, or errors.
+constexpr double kFarthest = 4.0;
+
+// Returns the area of the surface that a frame shows, in squares of the unit of the surface.
 double VisibleArea(const ObservedSurface& surface) {
   double area = 0.0;
+  const double farthest = kFarthest * surface.median_depth();
   for (int j = 0; j < surface.height(); ++j) {
     for (int i = 0; i < surface.width(); ++i) {
       const SurfacePatch& patch = surface.patch(i, j);
-      if (!patch.valid()) continue;
+      if (!patch.valid() || patch.point.z() > farthest) continue;
       const double cosine = -patch.normal.dot(patch.point) / patch.point.norm();
       const double side = surface.cell() * patch.point.z();
       area += side * side / (surface.camera().fx * surface.camera().fy) / std::max(cosine, 0.2);
@@ -64,6 +100,7 @@ MapMemory Tracker::Memory() const {
   map_.AddMemory(&memory);
   memory.tissue_memory = memory_.HeapBytes();
   memory.levels = levels_->HeapBytes();
+  memory.corners = features_.HeapBytes();
   return memory;
 }
 
@@ -76,18 +113,18 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
   if (unit_ == 0.0) return report;
   const ObservedSurface surface(frame.depth, camera_, 1.0 / unit_, options_.surface);
   report.times.observe = timer.Seconds();
-  if (surface.num_valid() == 0) return report;
+  if (surface.num_valid() == 0) {
+    gap_ = true;
+    return report;
+  }
 
   if (first) {
     report.status = FrameStatus::kInitialized;
-  } else if (FindCamera(frame, surface, &report)) {
+  } else if (FindCamera(frame, surface, &report) && proving_ == 0) {
     FollowTissue(surface, frame.catch_up, &report);
-  } else {
-    report.nodes = map_.graph().num_nodes();
-    report.map_points = map_.num_points();
-    return report;
   }
-  Grow(frame, surface, &report);
+  gap_ = report.status == FrameStatus::kLost;
+  if (!gap_ && proving_ == 0) Grow(frame, surface, &report);
   report.nodes = map_.graph().num_nodes();
   report.map_points = map_.num_points();
   return report;
@@ -130,64 +167,151 @@ bool Tracker::FindCamera(const SlamFrame& frame,
                          FrameReport* report) {
   Timer timer;
   const CameraPose before = map_.state().camera_from_map;
-  const CameraPose predicted = Predict(frame);
+  CameraPose predicted = Predict(frame);
+  report->updated_pi += CatchUpInView(predicted);
+  report->times.level2 += timer.Restart();
+  visible_ = FindVisible(map_, predicted, camera_, VisibilityOptions());
+  // A camera goes on as before, or stands still after a jump.
+  if (options_.camera == CameraMode::kEstimate &&
+      Misfit(visible_, before, surface) < Misfit(visible_, predicted, surface)) {
+    predicted = before;
+  }
+  report->times.associate += timer.Restart();
   const bool color = options_.features && !frame.color.empty();
   std::vector<PointMatch> matches;
+  bool continuous = true;
   if (color) {
-    features_.Track(frame.color, surface, map_, predicted);
+    if (gap_) features_.Clear();
+    continuous = features_.Track(frame.color, surface, map_, predicted);
     matches = features_.Matches(map_);
   }
   report->times.features += timer.Restart();
-  report->updated_pi += CatchUpInView(predicted);
-  report->times.level2 += timer.Restart();
-  const VisibilityOptions visibility;
-  visible_ = FindVisible(map_, predicted, camera_, visibility);
-  report->times.associate += timer.Restart();
-  CameraPose found = predicted;
   report->status = FrameStatus::kTracked;
-  if (options_.camera == CameraMode::kEstimate) {
-    found =
-        TrackCamera(visible_, matches, surface, predicted, CameraTrackerOptions()).camera_from_map;
-    visible_ = FindVisible(map_, found, camera_, visibility);
-    if (!Confirm(surface, before, &found, report)) {
-      report->status = FrameStatus::kLost;
-      camera_step_ = CameraPose();
-      visible_.clear();
-      report->times.camera += timer.Restart();
-      return false;
-    }
+  if (options_.camera != CameraMode::kEstimate) {
+    map_.SetCamera(predicted);
+    return true;
   }
+  CameraTrackerResult tracked =
+      TrackCamera(visible_, matches, surface, predicted, CameraTrackerOptions());
+  if (!continuous && features_.num_known() >= kFewestCorners) {
+    FindCameraAnew(surface, &matches, &tracked);
+  }
+  CameraPose found = tracked.camera_from_map;
+  report->weak_directions = tracked.information.NumWeak();
+  visible_ = FindVisible(map_, found, camera_, VisibilityOptions());
+  const double moved = tracked.information.CoordinatesOf(found * predicted.Inverse()).norm();
+  const bool smooth = moved < kSmoothMotion;
+  const bool known = Confirm(surface, matches, before, smooth, &found, report);
   report->times.camera += timer.Restart();
-  const bool jumped = report->status == FrameStatus::kRelocalized;
-  camera_step_ = jumped ? CameraPose() : found * before.Inverse();
+  if (!known) {
+    report->status = FrameStatus::kLost;
+    camera_step_ = CameraPose();
+    visible_.clear();
+    return false;
+  }
+  camera_step_ = report->status == FrameStatus::kRelocalized
+                     ? CameraPose()
+                     : tracked.information.DeterminedPart(found * before.Inverse());
   map_.SetCamera(found);
   return true;
 }
 
-// Compares a tracked pose that explains the frame badly with a pose that is found by a search.
-// Returns false if neither can be accepted.
+// Refines a pose, and searches for the corners that it brings into view. Returns how much speaks
+// for the pose: the number of corners in their places, or 0 if these are so few that they may be
+// there by chance.
+int Tracker::FindCorners(const ObservedSurface& surface,
+                         const CameraPose& start,
+                         std::vector<PointMatch>* matches,
+                         CameraTrackerResult* tracked) {
+  CatchUpInView(start);
+  visible_ = FindVisible(map_, start, camera_, VisibilityOptions());
+  features_.Clear();
+  const int searched = features_.Recall(surface, map_, start);
+  *matches = features_.Matches(map_);
+  *tracked = TrackCamera(visible_, *matches, surface, start, CameraTrackerOptions());
+  const int found = NumAgreeing(*matches, tracked->camera_from_map);
+  return found >= kFewestCorners && found >= kRecognizedShare * searched ? found : 0;
+}
+
+// Finds the camera when the corners are not where they were expected, as after a gap or a jump:
+// from the pose that the depth tells, from the one at which corners are recognised by their
+// descriptors, and, if neither is confirmed by corners, from a search by the depth alone. Returns
+// whether corners confirm the result.
+bool Tracker::FindCameraAnew(const ObservedSurface& surface,
+                             std::vector<PointMatch>* matches,
+                             CameraTrackerResult* tracked) {
+  const CameraTrackerResult by_depth = *tracked;
+  std::vector<CameraPose> starts = {by_depth.camera_from_map};
+  if (const auto place = features_.Recognize(surface, map_)) starts.push_back(*place);
+  int best = 0;
+  CameraPose best_start;
+  const auto attempt = [&](const CameraPose& start) {
+    const int found = FindCorners(surface, start, matches, tracked);
+    if (found <= best) return;
+    best = found;
+    best_start = start;
+  };
+  for (const CameraPose& start : starts) attempt(start);
+  if (best == 0) {
+    PoseQualityOptions judge;
+    judge.point_spacing = options_.growth.point_spacing;
+    attempt(Relocalize(map_, surface, map_.state().camera_from_map, VisibilityOptions(), judge)
+                .camera_from_map);
+  }
+  if (best > 0) {
+    FindCorners(surface, best_start, matches, tracked);
+    return true;
+  }
+  *tracked = by_depth;
+  matches->clear();
+  features_.Clear();
+  visible_ = FindVisible(map_, by_depth.camera_from_map, camera_, VisibilityOptions());
+  return false;
+}
+
+// Decides whether a tracked pose is right. One that explains the frame badly is compared with a
+// pose that is found by a search, which is preferred more easily if the tracked one is not where it
+// was expected (`smooth`). Returns false if neither can be accepted. A pose that was found
+// by a search has to prove itself: at once by corners that are recognised, or by several frames
+// that it explains well.
 bool Tracker::Confirm(const ObservedSurface& surface,
+                      const std::vector<PointMatch>& matches,
                       const CameraPose& before,
+                      bool smooth,
                       CameraPose* pose,
                       FrameReport* report) {
   PoseQualityOptions judge;
   judge.point_spacing = options_.growth.point_spacing;
-  PoseQuality quality = JudgePose(visible_, *pose, surface, judge);
-  if (!judge.Doubts(quality)) return true;
+  if (CornersAgree(matches, *pose)) {
+    proving_ = 0;
+    return true;
+  }
+  // Depth may drop out, and a tool may come before the tissue, but not while the camera jumps.
+  judge.trust_gaps = smooth;
+  const PoseQuality quality = JudgePose(visible_, *pose, surface, judge);
+  if (!judge.Doubts(quality)) {
+    proving_ = std::max(0, proving_ - 1);
+    return true;
+  }
+  judge.trust_gaps = false;
   const Relocalization other = Relocalize(map_, surface, before, VisibilityOptions(), judge);
   // A flat piece of tissue fits in many places. A pose that was found by a search must therefore be
   // good in every respect, and must explain about as much of the map as was seen before.
   const bool sound =
       !judge.Doubts(other.quality) && other.quality.points >= kLeastOfBefore * points_before_;
-  if (sound && other.quality.Score() > kClearlyBetter * quality.Score()) {
-    *pose = other.camera_from_map;
-    report->status = FrameStatus::kRelocalized;
-    report->updated_pi += CatchUpInView(*pose);
-    visible_ = FindVisible(map_, *pose, camera_, VisibilityOptions());
-    features_.Clear();
-    return true;
+  const bool believed = judge.Believes(quality);
+  const double better = believed && smooth ? kMuchBetter : kClearlyBetter;
+  if (!sound || other.quality.Score() <= better * quality.Score()) {
+    return believed && proving_ == 0;
   }
-  return judge.Believes(quality);
+  *pose = other.camera_from_map;
+  report->status = FrameStatus::kRelocalized;
+  report->updated_pi += CatchUpInView(*pose);
+  visible_ = FindVisible(map_, *pose, camera_, VisibilityOptions());
+  features_.Clear();
+  features_.Recall(surface, map_, *pose);
+  proving_ = CornersAgree(features_.Matches(map_), *pose) ? 0 : kProvingFrames;
+  return true;
 }
 
 }  // namespace ceres_ed

@@ -52,20 +52,36 @@ class Tracker final : public DeformableSlam {
   void Initialize(const SlamFrame& frame);
   CameraPose Predict(const SlamFrame& frame) const;
   bool FindCamera(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
+  int FindCorners(const ObservedSurface& surface,
+                  const CameraPose& start,
+                  std::vector<PointMatch>* matches,
+                  CameraTrackerResult* tracked);
+  bool FindCameraAnew(const ObservedSurface& surface,
+                      std::vector<PointMatch>* matches,
+                      CameraTrackerResult* tracked);
   bool Confirm(const ObservedSurface& surface,
+               const std::vector<PointMatch>& matches,
                const CameraPose& before,
+               bool smooth,
                CameraPose* pose,
                FrameReport* report);
   // Brings the nodes near the view up to date, and returns the number of nodes that were moved.
   int CatchUpInView(const CameraPose& camera_from_map);
   FrameObservations FollowSeen(const ObservedSurface& surface, FrameReport* report);
   void FollowHidden(bool catch_up, FrameReport* report);
+  void Deform(const ObservedSurface& surface, bool catch_up, FrameReport* report);
   void FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report);
   void NoteRecalled();
   void NoteNewNodes();
   double FeatureDeviation() const;
-  void Measure(const AssociationResult& association, double noise, FrameReport* report);
-  void Fuse(const AssociationResult& association, double noise);
+  void Measure(const ObservedSurface& surface,
+               const AssociationResult& association,
+               double noise,
+               FrameReport* report);
+  void Fuse(const AssociationResult& association, int frame, double noise);
+  // Notes that a visible point, whose data are `point`, is not where it should be, and removes it
+  // if this has happened too often. Its slot in visible_ is -1 then.
+  void Contradict(int visible, MapPoint point);
   void Verify(const FrameObservations& observations, FrameReport* report);
   void Grow(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
   FrameObservations Observe(const AssociationResult& association) const;
@@ -84,9 +100,14 @@ class Tracker final : public DeformableSlam {
   CameraPose world_from_map_;
   // The number of points on the observed surface in the last tracked frame.
   int points_before_ = 0;
+  // The number of frames in which a pose that was found by a search must still prove itself. Until
+  // then the map stays as it is.
+  int proving_ = 0;
+  // Whether the camera of the frame before is not known.
+  bool gap_ = false;
   // The number of nodes at the start of the last growth.
   int nodes_before_growth_ = 0;
-  // The last motion of the camera, from which the next pose is predicted.
+  // The last motion of the camera, along the directions that the data determined.
   CameraPose camera_step_;
 };
 

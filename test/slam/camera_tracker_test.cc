@@ -36,6 +36,8 @@ struct TrackedScene {
                             const std::vector<PointMatch>& matches = {}) const {
     CameraTrackerOptions options;
     options.max_iterations = 50;
+    // Only the search can cause an error, not the share of the motion that is not believed.
+    options.strength_floor = 1e-8;
     return TrackCamera(points, matches, surface, start, options);
   }
 
@@ -154,6 +156,58 @@ TEST(TrackCamera, OnlyMeasuresWithoutIterations) {
   EXPECT_EQ(result.camera_from_map.translation, TruePose().translation);
   EXPECT_LT(result.deviation, 1e-12);
   EXPECT_EQ(result.inliers, static_cast<int>(scene.points.size()));
+}
+
+// A ball looks the same from all sides: nothing determines a rotation about its centre.
+TEST(TrackCamera, DoesNotTurnAboutTheCentreOfABall) {
+  const Eigen::Vector3d center(0.2, -0.1, 9.0);
+  constexpr double kRadius = 4.0;
+  const auto ball = [&](const Eigen::Vector3d& ray) {
+    const double a = ray.squaredNorm();
+    const double b = ray.dot(center);
+    const double root = b * b - a * (center.squaredNorm() - kRadius * kRadius);
+    return root > 0.0 ? (b - std::sqrt(root)) / a : 0.0;
+  };
+  const TrackedScene scene(ball, CameraPose());
+  // The start is turned about the centre, and is too near, which the ball does determine.
+  CameraPose start = Motion(0.1, {0.3, 1.0, 0.2}, {0.0, 0.0, 0.0});
+  start.translation = center - start.rotation * center + Eigen::Vector3d(0.0, 0.0, 0.15);
+  const CameraTrackerResult result = TrackCamera(scene.points, {}, scene.surface, start, {});
+  EXPECT_LT(AngleBetween(result.camera_from_map, start), 0.01);
+  EXPECT_LT(std::abs((result.camera_from_map * center - center).z()), 0.01);
+  EXPECT_EQ(result.information.NumWeak(), 3);
+  // What a step did in these directions is not a velocity.
+  CameraPose turn = Motion(0.1, {0.3, 1.0, 0.2}, {0.0, 0.0, 0.0});
+  turn.translation = center - turn.rotation * center;
+  EXPECT_LT(result.information.DeterminedPart(turn).rotation.angularDistance(CameraPose().rotation),
+            0.02);
+}
+
+// Most of the picture is a wall, along which the camera slides; only a ball before it tells. Exact
+// depth makes the wall fit exactly, but it does not make the ball an error.
+TEST(TrackCamera, BelievesTheSmallPartThatDeterminesAMotion) {
+  const auto scene_at = [](const Eigen::Vector3d& ball) {
+    return [ball](const Eigen::Vector3d& ray) {
+      const double a = ray.squaredNorm();
+      const double b = ray.dot(ball);
+      const double root = b * b - a * (ball.squaredNorm() - 1.0);
+      return root > 0.0 ? (b - std::sqrt(root)) / a : 10.0;
+    };
+  };
+  const CameraPose truth = Motion(0.0, {0.0, 0.0, 1.0}, {0.15, 0.1, 0.0});
+  const TrackedScene scene(scene_at({0.15, 0.1, 7.0}), truth);
+  const CameraTrackerResult result =
+      TrackCamera(scene.points, {}, scene.surface, CameraPose(), CameraTrackerOptions());
+  EXPECT_LT((result.camera_from_map.translation - truth.translation).norm(), 0.01);
+  EXPECT_LT(AngleBetween(result.camera_from_map, truth), 0.01);
+}
+
+TEST(Misfit, IsLeastAtTheTruePose) {
+  const TrackedScene scene(HillScene(), TruePose());
+  const double right = Misfit(scene.points, TruePose(), scene.surface);
+  EXPECT_LT(right, 1e-6);
+  EXPECT_GT(Misfit(scene.points, CameraPose(), scene.surface), 10.0 * right + 1e-4);
+  EXPECT_EQ(Misfit({}, CameraPose(), scene.surface), 1.0);
 }
 
 }  // namespace

@@ -151,6 +151,74 @@ TEST_F(FeaturePointsTest, DropThoseThatTheSolvedMapContradicts) {
   EXPECT_EQ(features_.size(), left);
 }
 
+TEST_F(FeaturePointsTest, AreFoundAgainWhenTheyComeBack) {
+  const std::vector<PointMatch> before = features_.Matches(map_);
+  ColorImage black(160, 120);
+  features_.Track(black, surface_, map_, map_.state().camera_from_map);
+  EXPECT_EQ(features_.size(), 0);
+  EXPECT_EQ(features_.num_known(), born_);
+  // The sheet is back, a little aside.
+  const Eigen::Vector2d shift(3.0, -2.0);
+  features_.Track(TexturedPicture(shift, EvenLight), surface_, map_, map_.state().camera_from_map);
+  features_.Recall(surface_, map_, map_.state().camera_from_map);
+  EXPECT_GT(features_.size(), 0.7 * born_);
+  EXPECT_EQ(features_.num_known(), born_);
+  EXPECT_LT(MedianError(features_, map_, kPixel * Eigen::Vector3d(shift.x(), shift.y(), 0.0)),
+            0.1 * kPixel);
+}
+
+// The method of Lucas and Kanade alone adds up its errors.
+TEST_F(FeaturePointsTest, DoNotDrift) {
+  for (int frame = 1; frame <= 40; ++frame) {
+    const Eigen::Vector2d shift(3.0 * std::sin(0.5 * frame), 2.0 * std::sin(0.3 * frame));
+    Show(shift);
+    EXPECT_LT(MedianError(features_, map_, kPixel * Eigen::Vector3d(shift.x(), shift.y(), 0.0)),
+              0.1 * kPixel)
+        << frame;
+  }
+  EXPECT_GT(features_.size(), 0.7 * born_);
+}
+
+// The camera turns about its axis and steps aside, where no prediction reaches.
+TEST_F(FeaturePointsTest, RecognizeTheCamera) {
+  const Eigen::Vector2d shift(35.0, 20.0);
+  features_.Track(TexturedPicture(shift, EvenLight), surface_, map_, map_.state().camera_from_map);
+  features_.Clear();
+  const std::optional<CameraPose> pose = features_.Recognize(surface_, map_);
+  ASSERT_TRUE(pose.has_value());
+  const CameraPose motion = *pose * map_.state().camera_from_map.Inverse();
+  const Eigen::Vector3d center(0.0, 0.0, kDepth);
+  EXPECT_LT((motion * center - center - kPixel * Eigen::Vector3d(shift.x(), shift.y(), 0.0)).norm(),
+            0.5 * kPixel);
+  EXPECT_LT(motion.rotation.angularDistance(CameraPose().rotation), 0.02);
+}
+
+TEST_F(FeaturePointsTest, RecognizeNothingInAnotherPicture) {
+  features_.Track(
+      TexturedPicture({0, 0}, EvenLight, /*seed=*/9), surface_, map_, map_.state().camera_from_map);
+  EXPECT_FALSE(features_.Recognize(surface_, map_).has_value());
+}
+
+// A part of the tissue slides as a whole; single corners that are elsewhere are confused.
+TEST_F(FeaturePointsTest, TrustWhatMovesLikeItsNeighbours) {
+  ColorImage torn = TexturedPicture({0.0, 0.0}, EvenLight);
+  const ColorImage slid = TexturedPicture({5.0, 0.0}, EvenLight);
+  for (int v = 0; v < 120; ++v) {
+    for (int u = 80; u < 160; ++u) torn(u, v) = slid(u, v);
+  }
+  features_.Track(torn, surface_, map_, map_.state().camera_from_map);
+  int moved = 0, trusted = 0;
+  for (const PointMatch& m : features_.Matches(map_)) {
+    const Eigen::Vector3d motion = m.in_camera - map_.state().camera_from_map * m.in_map;
+    // Well inside of the part that slides.
+    if (m.in_camera.x() < 1.2 || std::abs(motion.x() - 5.0 * kPixel) > kPixel) continue;
+    ++moved;
+    if (m.weight > 0.5) ++trusted;
+  }
+  EXPECT_GT(moved, 10);
+  EXPECT_GT(trusted, 0.8 * moved);
+}
+
 TEST(FeaturePoints, WaitForAMap) {
   FeaturePoints features(DenseFeatures());
   const ObservedSurface surface = Sheet();

@@ -292,5 +292,93 @@ TEST(SlamOptions, NameWhatIsOutOfRange) {
             "camera: fx is 0, expected a focal length > 0 pixels");
 }
 
+TEST(DeformableSlam, MovesTheCameraAloneIfTheSceneIsRigid) {
+  SlamOptions options;
+  options.rigid = true;
+  const SlamRun run(KidneySequence(), options);
+  const DeformationState& state = run.slam->map().state();
+  for (int j = 0; j < state.num_nodes(); ++j) {
+    EXPECT_EQ(NodeAffine(state.node(j)), Eigen::Matrix3d::Identity());
+    EXPECT_EQ(NodeTranslation(state.node(j)), Eigen::Vector3d::Zero());
+  }
+  EXPECT_GT(run.slam->camera_from_map().translation.norm(), 0.0);
+}
+
+// Nearly half of the picture has no depth in some frames.
+TEST(DeformableSlam, DepthThatDropsOutIsNoEvidenceAgainstTheCamera) {
+  const ShortSequence& sequence = KidneySequence();
+  const auto slam = MakeSlam(sequence.camera, SlamOptions());
+  for (int k = 0; k < 8; ++k) {
+    SlamFrame frame = sequence.Frame(k);
+    DepthImage half = sequence.frames[k].depth;
+    if (k >= 3) {
+      for (int v = 0; v < half.height(); ++v) {
+        for (int u = 0; u < (45 * half.width()) / 100; ++u) half(u, v) = 0.0F;
+      }
+    }
+    frame.depth = &half;
+    const FrameReport report = slam->Process(frame);
+    EXPECT_NE(report.status, FrameStatus::kLost) << k;
+    EXPECT_NE(report.status, FrameStatus::kRelocalized) << k;
+    if (k >= 3) EXPECT_GT(report.overlap, 0.9) << k;
+  }
+}
+
+// In one frame a patch of the depth is too near, as at the rim of an organ in stereo.
+TEST(DeformableSlam, ForgetsWhatOneFrameAloneHasSeen) {
+  const ShortSequence& sequence = KidneySequence();
+  const auto slam = MakeSlam(sequence.camera, SlamOptions());
+  int floaters_then = 0, floaters_now = 0;
+  const auto count = [&] {
+    int floaters = 0;
+    for (int slot = 0; slot < slam->map().num_slots(); ++slot) {
+      if (!slam->map().alive(slot)) continue;
+      const MapPoint point = slam->map().point(slot);
+      // Nothing else is born so near to the camera.
+      if (point.birth_frame == 2 && point.birth_position.z() * slam->unit() < 0.04) ++floaters;
+    }
+    return floaters;
+  };
+  for (int k = 0; k < 8; ++k) {
+    SlamFrame frame = sequence.Frame(k);
+    DepthImage depth = sequence.frames[k].depth;
+    if (k == 2) {
+      for (int v = 40; v < 60; ++v) {
+        for (int u = 70; u < 90; ++u) depth(u, v) = 0.035F;
+      }
+    }
+    frame.depth = &depth;
+    EXPECT_EQ(slam->Process(frame).status,
+              k == 0 ? FrameStatus::kInitialized : FrameStatus::kTracked);
+    if (k == 2) floaters_then = count();
+    floaters_now = count();
+  }
+  EXPECT_GT(floaters_then, 5);
+  EXPECT_EQ(floaters_now, 0);
+}
+
+// After frames without depth the camera is elsewhere, and corners tell where.
+TEST(DeformableSlam, FindsTheCameraAfterAGap) {
+  constexpr int kGap = 8;
+  static const ShortSequence sequence(SyntheticSceneKind::kHeart, 18);
+  const auto slam = MakeSlam(sequence.camera, SlamOptions());
+  const DepthImage nothing(sequence.camera.width, sequence.camera.height, 0.0F);
+  for (int k = 0; k < 18; ++k) {
+    SlamFrame frame = sequence.Frame(k);
+    const bool gap = k >= 6 && k < 6 + kGap;
+    if (gap) frame.depth = &nothing;
+    const FrameReport report = slam->Process(frame);
+    EXPECT_EQ(report.status == FrameStatus::kSkipped, gap) << k;
+    EXPECT_NE(report.status, FrameStatus::kLost) << k;
+  }
+  const CameraPose truth =
+      sequence.frames[17].world_from_camera.Inverse() * sequence.frames[0].world_from_camera;
+  const double turn = truth.rotation.angularDistance(CameraPose().rotation);
+  // The camera has turned by 29 degrees, half of it unseen, and without the corners it would be off
+  // by this half.
+  EXPECT_GT(turn, 0.4);
+  EXPECT_LT(slam->camera_from_map().rotation.angularDistance(truth.rotation), 0.2 * turn);
+}
+
 }  // namespace
 }  // namespace ceres_ed

@@ -29,6 +29,7 @@ AssociationResult Associate(const std::vector<VisiblePoint>& points,
     match.distance = patch->normal.dot(point.in_camera - patch->point);
     if (std::abs(match.distance) > options.max_distance) {
       if (match.distance > 0.0) result.seen_through.push_back(i);
+      if (match.distance < -options.occluded_distance) ++result.occluded;
       continue;
     }
     if ((rotation * point.normal_in_map).dot(patch->normal) < min_cosine) continue;

@@ -30,6 +30,8 @@ struct AssociationOptions {
   double max_distance = 1.0;
   // The largest angle between the normals, in degrees, (0, 180]; default 60.
   double max_angle_deg = 60.0;
+  // A point that is farther behind the plane of its patch is occluded; map units, default 1.5.
+  double occluded_distance = 1.5;
 };
 
 // The associations of all visible points.
@@ -38,8 +40,10 @@ struct AssociationResult {
   // Indices of visible points whose patch is far behind them on the same ray: the camera sees
   // through them.
   std::vector<int> seen_through;
-  // The number of visible points with a patch at their pixel.
+  // The number of visible points with a patch at their pixel, and the number of those that are far
+  // behind the patch: something else stands before them.
   int measured = 0;
+  int occluded = 0;
   // The RobustDeviation() of the matches' distances.
   double deviation = 0.0;
 };

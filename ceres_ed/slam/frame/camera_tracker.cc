@@ -5,40 +5,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Geometry>
+#include <Eigen/Eigenvalues>
 
 namespace ceres_ed {
 namespace {
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // The residual at which Tukey's weight becomes zero, in deviations.
 constexpr double kTukeyWidth = 4.685;
 constexpr double kInlierWidth = 3.0;
 constexpr double kLeastDeviation = 1e-6;
 constexpr std::size_t kFewestMatches = 6;
+// The part of the strength from noise that is not known.
+constexpr double kUncertainNoise = 0.1;
 // A step smaller than this ends the search, in map units.
 constexpr double kSmallStep = 1e-4;
 
-double TukeyWeight(double residual, double deviation) {
-  const double x = residual / (kTukeyWidth * deviation);
+double TukeyWeight(double residual, double width) {
+  const double x = residual / width;
   const double inside = 1.0 - x * x;
   return inside > 0.0 ? inside * inside : 0.0;
-}
-
-// Returns the pose that maps to x' = x + omega x (x - center) + tau.
-CameraPose Moved(const CameraPose& pose, const Vector6d& step, const Eigen::Vector3d& center) {
-  const Eigen::Vector3d omega = step.head<3>();
-  const double angle = omega.norm();
-  const Eigen::Quaterniond turn = angle > 0.0
-                                      ? Eigen::Quaterniond(Eigen::AngleAxisd(angle, omega / angle))
-                                      : Eigen::Quaterniond::Identity();
-  CameraPose moved;
-  moved.rotation = (turn * pose.rotation).normalized();
-  moved.translation = turn * (pose.translation - center) + center + step.tail<3>();
-  return moved;
 }
 
 void MoveTo(const CameraPose& pose,
@@ -51,8 +36,7 @@ void MoveTo(const CameraPose& pose,
   }
 }
 
-// The normal equations of one step. Rotations are about the centre of the scene and in units of its
-// radius, so that all six unknowns are lengths.
+// The normal equations of one step, in the coordinates of MotionInformation.
 class StepEquations {
  public:
   explicit StepEquations(const std::vector<Association>& matches) {
@@ -74,23 +58,51 @@ class StepEquations {
     weight_ += weight;
   }
 
-  // Moves `pose` by the step and returns the size of the step in map units; negative if there is
-  // none.
-  double Solve(double damping, CameraPose* pose) const {
-    Matrix6d damped = hessian_;
-    damped.diagonal().array() += damping * weight_;
-    Vector6d step = -damped.ldlt().solve(gradient_);
-    if (!step.allFinite()) return -1.0;
-    const double size = step.norm();
-    step.head<3>() /= radius_;
-    *pose = Moved(*pose, step, center_);
-    return size;
+  // What is added from now on is not a plane with a noisy normal.
+  void EndPlanes() { plane_weight_ = weight_; }
+
+  // Returns false if no match has a weight.
+  bool Analyse(double slope_noise, double floor, MotionInformation* information) const {
+    if (!(weight_ > 0.0)) return false;
+    const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(hessian_ / weight_);
+    information->center = center_;
+    information->radius = radius_;
+    information->strengths = eigen.eigenvalues().cwiseMax(0.0);
+    information->directions = eigen.eigenvectors();
+    const double noise = slope_noise * slope_noise;
+    information->noise = noise * plane_weight_ / weight_;
+    information->floor = floor + kUncertainNoise * noise;
+    return true;
+  }
+
+  // Moves `pose` by a step, and returns its size. The unknown is the motion x since `start`. With
+  // the strength s_i, the gradient g_i and the share D_i to which direction i is determined, a
+  // prior of weight s_i (1 - D_i) / D_i holds x_i at 0, so that the share D_i of the motion that
+  // the data ask for is left:
+  //   dx_i = -(D_i g_i / s_i + (1 - D_i) x_i)
+  double Solve(const MotionInformation& information,
+               const CameraPose& start,
+               CameraPose* pose) const {
+    const Matrix6d& directions = information.directions;
+    const Vector6d gradient = directions.transpose() * gradient_ / weight_;
+    const Vector6d moved =
+        directions.transpose() * information.CoordinatesOf(*pose * start.Inverse());
+    Vector6d step;
+    for (int i = 0; i < 6; ++i) {
+      const double determined = information.Determined(i);
+      const double asked = determined > 0.0 ? gradient[i] / information.strengths[i] : 0.0;
+      step[i] = -(determined * asked + (1.0 - determined) * moved[i]);
+    }
+    if (!step.allFinite()) return 0.0;
+    *pose = information.MotionOf(directions * step) * *pose;
+    return step.norm();
   }
 
  private:
   Eigen::Vector3d center_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;
   double weight_ = 0.0;
+  double plane_weight_ = 0.0;
   Matrix6d hessian_ = Matrix6d::Zero();
   Vector6d gradient_ = Vector6d::Zero();
 };
@@ -105,7 +117,7 @@ std::vector<VisiblePoint> Thinned(const std::vector<VisiblePoint>& all, int max_
 
 void AddPointMatches(const std::vector<PointMatch>& matches,
                      const CameraPose& pose,
-                     double least_deviation,
+                     double least_width,
                      double weight,
                      StepEquations* equations) {
   std::vector<double> distances;
@@ -113,9 +125,9 @@ void AddPointMatches(const std::vector<PointMatch>& matches,
   for (const PointMatch& m : matches) {
     distances.push_back((pose * m.in_map - m.in_camera).norm());
   }
-  const double deviation = std::max(RobustDeviation(distances), least_deviation);
+  const double width = std::max(kTukeyWidth * RobustDeviation(distances), least_width);
   for (std::size_t k = 0; k < matches.size(); ++k) {
-    const double robust = weight * TukeyWeight(distances[k], deviation);
+    const double robust = weight * matches[k].weight * TukeyWeight(distances[k], width);
     if (robust == 0.0) continue;
     const Eigen::Vector3d x = pose * matches[k].in_map;
     const Eigen::Vector3d residual = x - matches[k].in_camera;
@@ -127,6 +139,21 @@ void AddPointMatches(const std::vector<PointMatch>& matches,
 
 }  // namespace
 
+double Misfit(const std::vector<VisiblePoint>& points,
+              const CameraPose& camera_from_map,
+              const ObservedSurface& surface) {
+  constexpr int kSamples = 1000;
+  std::vector<VisiblePoint> samples = Thinned(points, kSamples);
+  MoveTo(camera_from_map, surface.camera(), &samples);
+  const AssociationResult result =
+      Associate(samples, camera_from_map, surface, AssociationOptions());
+  if (result.measured == 0) return 1.0;
+  // A point without a match is as far away as a match can be.
+  double sum = result.measured - static_cast<double>(result.matches.size());
+  for (const Association& m : result.matches) sum += m.distance * m.distance;
+  return sum / result.measured;
+}
+
 CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
                                 const std::vector<PointMatch>& matches,
                                 const ObservedSurface& surface,
@@ -136,6 +163,7 @@ CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
   result.camera_from_map = start;
   std::vector<VisiblePoint> points = Thinned(all_points, options.max_points);
   if (points.empty()) return result;
+  double least_width = options.first_width;
   // Each iteration associates the points again and takes one Gauss-Newton step.
   for (int iteration = 0;; ++iteration) {
     CameraPose& pose = result.camera_from_map;
@@ -149,21 +177,26 @@ CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
     result.deviation = association.deviation;
     result.inliers = static_cast<int>(
         std::count_if(association.matches.begin(), association.matches.end(), is_inlier));
-    if (iteration >= options.max_iterations || association.matches.size() < kFewestMatches) {
-      return result;
-    }
+    if (association.matches.size() < kFewestMatches) return result;
+    const double width = std::max(kTukeyWidth * deviation, least_width);
     StepEquations equations(association.matches);
     for (const Association& m : association.matches) {
       equations.Add(points[m.visible].in_camera,
                     m.patch->normal,
                     m.distance,
-                    m.weight * TukeyWeight(m.distance, deviation));
+                    m.weight * TukeyWeight(m.distance, width));
     }
-    AddPointMatches(matches, pose, deviation, options.match_weight, &equations);
-    const double step = equations.Solve(options.damping, &pose);
-    if (step < 0.0) return result;
+    equations.EndPlanes();
+    AddPointMatches(matches, pose, width, options.match_weight, &equations);
+    if (!equations.Analyse(surface.slope_noise(), options.strength_floor, &result.information)) {
+      return result;
+    }
+    if (iteration >= options.max_iterations) return result;
+    const double step = equations.Solve(result.information, start, &pose);
+    const bool narrow = least_width <= options.least_width;
+    least_width = std::max(0.5 * least_width, options.least_width);
     // After a small step the points are associated once more.
-    if (step < kSmallStep) iteration = options.max_iterations - 1;
+    if (narrow && step < kSmallStep) iteration = options.max_iterations - 1;
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/slam/frame/association.h>
+#include <ceres_ed/slam/frame/motion_information.h>
 #include <ceres_ed/slam/frame/observed_surface.h>
 #include <ceres_ed/slam/frame/visibility.h>
 
@@ -19,6 +20,8 @@ namespace ceres_ed {
 struct PointMatch {
   Eigen::Vector3d in_map = Eigen::Vector3d::Zero();
   Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();
+  // In [0, 1].
+  double weight = 1.0;
 };
 
 // Options of TrackCamera().
@@ -32,9 +35,15 @@ struct CameraTrackerOptions {
   AssociationOptions association;
   // The weight of a point match relative to a point-to-plane match, >= 0; default 4.
   double match_weight = 4.0;
-  // The damping of each step, relative to the data, >= 0; default 1e-3. Directions that the data do
-  // not determine do not change.
-  double damping = 1e-3;
+  // The residual at which a match has no weight, in map units, > 0: in the first step, and the
+  // least one of later steps, each of which halves the width. The wide start finds the motion of
+  // the whole scene; a width from the spread alone would take that of the largest still part.
+  // Defaults 1 and 0.1.
+  double first_width = 1.0;
+  double least_width = 0.1;
+  // The strength of a direction (MotionInformation), beyond what the errors of the normals produce,
+  // at which half of its motion is believed, > 0. Default 1e-3.
+  double strength_floor = 1e-3;
 };
 
 // The pose found by TrackCamera(), and how well the points agree with it.
@@ -46,11 +55,19 @@ struct CameraTrackerResult {
   int inliers = 0;
   // The spread of the distances to the planes, in map units.
   double deviation = 0.0;
+  MotionInformation information;
 };
+
+// Returns how badly a pose explains a frame, in [0, 1]: the mean of min(1, d^2) over the points
+// that have a patch at their pixel, where d is the distance from its plane in map units; 1 if there
+// are none.
+double Misfit(const std::vector<VisiblePoint>& points,
+              const CameraPose& camera_from_map,
+              const ObservedSurface& surface);
 
 // Returns the pose that moves `points` onto the surface. It uses the Gauss-Newton method on robust
 // (Tukey) point-to-plane distances, which are associated again in each step, and on the distances
-// of `matches`.
+// of `matches`. Along directions that the data do not determine the pose stays at `start`.
 CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& points,
                                 const std::vector<PointMatch>& matches,
                                 const ObservedSurface& surface,

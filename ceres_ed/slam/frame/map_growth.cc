@@ -14,6 +14,8 @@ namespace {
 // Longer edges are not added, unless a node would have fewer than kFewestEdges.
 constexpr double kLongestEdge = 2.5;
 constexpr int kFewestEdges = 3;
+// A point farther than this from the observed surface does not belong to it, in map units.
+constexpr double kFarFromSurface = 1.0;
 
 // A patch that the map lacks.
 struct Candidate {
@@ -30,6 +32,17 @@ class Coverage {
       : surface_(surface), spacing_(spacing), covered_(surface.width(), surface.height(), 0) {}
 
   bool Covers(int i, int j) const { return covered_(i, j) != 0; }
+
+  // Returns the share of the valid patches that are covered.
+  double ShareOfSurface() const {
+    int covered = 0;
+    for (int j = 0; j < surface_.height(); ++j) {
+      for (int i = 0; i < surface_.width(); ++i) {
+        if (Covers(i, j) && surface_.patch(i, j).valid()) ++covered;
+      }
+    }
+    return covered / std::max(1.0, static_cast<double>(surface_.num_valid()));
+  }
 
   void Add(const Eigen::Vector2d& pixel, double z) {
     const double cell = surface_.cell();
@@ -58,9 +71,20 @@ std::vector<Candidate> FindCandidates(const std::vector<VisiblePoint>& visible,
                                       const ObservedSurface& surface,
                                       ColorView color,
                                       const MapGrowthOptions& options,
-                                      const CameraPose& camera_from_map) {
+                                      const CameraPose& camera_from_map,
+                                      double* explained) {
   Coverage coverage(surface, options.point_spacing);
-  for (const VisiblePoint& point : visible) coverage.Add(point.pixel, point.in_camera.z());
+  for (const VisiblePoint& point : visible) {
+    // A point far from the observed surface says nothing about what is there: something else hides
+    // it, or it is not tissue.
+    const SurfacePatch* patch = surface.Find(point.pixel);
+    if (patch != nullptr &&
+        std::abs(patch->normal.dot(point.in_camera - patch->point)) > kFarFromSurface) {
+      continue;
+    }
+    coverage.Add(point.pixel, point.in_camera.z());
+  }
+  *explained = coverage.ShareOfSurface();
   const double min_cosine = std::cos(options.max_view_angle_deg * M_PI / 180.0);
   const Eigen::Quaterniond map_from_camera = camera_from_map.rotation.conjugate();
   std::vector<Candidate> candidates;
@@ -206,7 +230,7 @@ MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
   MapGrowthResult result;
   const CameraPose camera_from_map = map->state().camera_from_map;
   const std::vector<Candidate> candidates =
-      FindCandidates(visible, surface, color, options, camera_from_map);
+      FindCandidates(visible, surface, color, options, camera_from_map, &result.explained);
   if (candidates.empty()) return result;
   PlaceBinder binder(*map, camera_from_map, surface.camera());
   const int first_new_node = map->graph().num_nodes();
@@ -224,6 +248,7 @@ MapGrowthResult GrowMap(const std::vector<VisiblePoint>& visible,
     point.weight = 1.0;
     point.color = candidate.color;
     point.birth_frame = frame;
+    point.last_seen = frame;
     point.birth_position = candidate.in_camera;
     map->AddPoint(point, binding);
     ++result.new_points;

@@ -19,6 +19,8 @@ namespace ceres_ed {
 struct MapGrowthResult {
   int new_points = 0;
   int new_nodes = 0;
+  // The share of the observed surface that `visible` points already covered.
+  double explained = 0.0;
 };
 
 // Binds positions on the map, in its present deformation, to the nearest nodes (Eq. 2).

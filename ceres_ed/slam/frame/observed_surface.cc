@@ -33,6 +33,16 @@ double MedianOfDeviations(const std::vector<SurfacePatch>& patches, int step) {
   return Median(std::move(deviations));
 }
 
+// Returns the median depth of some valid patches; 0 if there are none.
+double MedianDepth(const std::vector<SurfacePatch>& patches) {
+  const std::size_t step = 1 + patches.size() / kNoiseSamples;
+  std::vector<double> depths;
+  for (std::size_t k = 0; k < patches.size(); k += step) {
+    if (patches[k].valid()) depths.push_back(patches[k].point.z());
+  }
+  return Median(std::move(depths));
+}
+
 // Fits patches to sums over windows.
 class PatchFitter {
  public:
@@ -137,6 +147,14 @@ ObservedSurface::ObservedSurface(DepthView depth,
   const std::vector<SurfacePatch>& patches = patches_.pixels();
   num_valid_ = static_cast<int>(std::count_if(patches.begin(), patches.end(), is_valid));
   noise_ = MedianOfDeviations(patches, 1 + num_valid_ / kNoiseSamples);
+  // The slope of a plane through the n = (2 r + 1)^2 pixels of a window, which are z / f apart, has
+  // the deviation noise / (z / f sqrt(n r (r + 1) / 3)).
+  const double r = options.radius;
+  const double pixels = (2.0 * r + 1.0) * std::sqrt(r * (r + 1.0) / 3.0);
+  median_depth_ = MedianDepth(patches);
+  if (median_depth_ > 0.0) {
+    slope_noise_ = noise_ * std::min(camera.fx, camera.fy) / (median_depth_ * pixels);
+  }
 }
 
 }  // namespace ceres_ed

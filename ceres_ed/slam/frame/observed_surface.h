@@ -44,6 +44,11 @@ class ObservedSurface {
   // Returns the median of the patches' deviations, which is the noise of a pixel along the optical
   // axis; 0 if there are no patches.
   double noise() const { return noise_; }
+  // Returns the median depth of the patches; 0 if there are none.
+  double median_depth() const { return median_depth_; }
+  // Returns the standard deviation of the slope of a patch that this noise produces: of the tangent
+  // of the angle of its normal.
+  double slope_noise() const { return slope_noise_; }
 
   const SurfacePatch& patch(int i, int j) const { return patches_(i, j); }
   // Returns the patch nearest to a pixel, or null if there is none or the pixel is outside the
@@ -65,6 +70,8 @@ class ObservedSurface {
   int cell_;
   int num_valid_ = 0;
   double noise_ = 0.0;
+  double median_depth_ = 0.0;
+  double slope_noise_ = 0.0;
   Image<SurfacePatch> patches_;
 };
 

@@ -51,11 +51,14 @@ cv::Mat Flatten(const cv::Mat& rgb, double radius) {
 struct PixelTracker::Impl {
   PixelTrackerOptions options;
   cv::Mat gray;
+  // At half the resolution.
+  cv::Mat half;
   Pyramid before;
   Pyramid now;
 
-  // Builds the pyramid of `gray`.
+  // Builds `half` and the pyramid of `gray`.
   void BuildPyramid() {
+    cv::pyrDown(gray, half);
     now.clear();
     cv::buildOpticalFlowPyramid(
         gray, now, cv::Size(options.window, options.window), options.pyramid_levels);
@@ -109,29 +112,50 @@ void PixelTracker::SetImage(ColorView image) {
   impl_->BuildPyramid();
 }
 
-std::vector<TrackedPixel> PixelTracker::Track(const std::vector<Eigen::Vector2d>& pixels,
-                                              const std::vector<Eigen::Vector2d>& predicted) const {
+GrayLevels PixelTracker::Levels() const {
+  const auto view = [](const cv::Mat& image) {
+    return ImageView<std::uint8_t>(image.ptr<std::uint8_t>(), image.cols, image.rows);
+  };
+  return {view(impl_->gray), view(impl_->half)};
+}
+
+std::vector<TrackedPixel> PixelTracker::Flow(const std::vector<Eigen::Vector2d>& pixels,
+                                             const std::vector<Eigen::Vector2d>& predicted) const {
   CHECK_EQ(pixels.size(), predicted.size());
   std::vector<TrackedPixel> tracked(pixels.size());
   if (pixels.empty() || impl_->before.empty()) return tracked;
   const std::vector<cv::Point2f> start = ToCv(pixels);
   std::vector<cv::Point2f> end = ToCv(predicted);
-  std::vector<cv::Point2f> back;
-  std::vector<unsigned char> found(start.size()), found_back(start.size());
+  std::vector<unsigned char> found(start.size());
   impl_->Flow(impl_->before, impl_->now, start, &end, &found);
-  // The search backward starts from the same prediction, so that both directions have equally far
-  // to search.
-  back.reserve(end.size());
-  const std::vector<cv::Point2f> guess = ToCv(predicted);
-  for (std::size_t i = 0; i < end.size(); ++i) back.push_back(end[i] - (guess[i] - start[i]));
-  impl_->Flow(impl_->now, impl_->before, end, &back, &found_back);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
-    const double round_trip = std::hypot(back[i].x - start[i].x, back[i].y - start[i].y);
     tracked[i].pixel = {end[i].x, end[i].y};
-    tracked[i].found = found[i] != 0 && found_back[i] != 0 && std::isfinite(round_trip) &&
-                       round_trip <= impl_->options.max_round_trip;
+    tracked[i].found = found[i] != 0 && tracked[i].pixel.allFinite();
   }
   return tracked;
+}
+
+void PixelTracker::CheckReturn(const std::vector<Eigen::Vector2d>& pixels,
+                               const std::vector<Eigen::Vector2d>& predicted,
+                               std::vector<TrackedPixel>* tracked) const {
+  if (pixels.empty() || impl_->before.empty()) return;
+  // The search backward starts from the same prediction, so that both directions have equally far
+  // to search.
+  const std::vector<cv::Point2f> start = ToCv(pixels);
+  const std::vector<cv::Point2f> guess = ToCv(predicted);
+  std::vector<cv::Point2f> end, back;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const Eigen::Vector2d& pixel = (*tracked)[i].pixel;
+    end.emplace_back(static_cast<float>(pixel.x()), static_cast<float>(pixel.y()));
+    back.push_back(end[i] - (guess[i] - start[i]));
+  }
+  std::vector<unsigned char> found(end.size());
+  impl_->Flow(impl_->now, impl_->before, end, &back, &found);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const double round_trip = std::hypot(back[i].x - start[i].x, back[i].y - start[i].y);
+    (*tracked)[i].found = (*tracked)[i].found && found[i] != 0 && std::isfinite(round_trip) &&
+                          round_trip <= impl_->options.max_round_trip;
+  }
 }
 
 std::vector<Eigen::Vector2d> PixelTracker::Detect(const MaskImage& allowed,

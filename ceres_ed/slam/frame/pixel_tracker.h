@@ -4,6 +4,7 @@
 #define CERES_ED_SLAM_FRAME_PIXEL_TRACKER_H_
 
 #include <ceres_ed/geometry/images.h>
+#include <ceres_ed/slam/frame/patch_template.h>
 #include <ceres_ed/slam/slam_options.h>
 
 #include <memory>
@@ -30,10 +31,28 @@ class PixelTracker {
   // Makes the present picture the previous one, and `image` the present one.
   void SetImage(ColorView image);
 
+  // Returns the present picture in grey, without the shades of the light. It is valid until the
+  // next call of SetImage() or Exchange().
+  GrayLevels Levels() const;
+
   // Tracks pixels of the previous picture into the present one. `predicted` contains their expected
-  // positions there.
+  // positions there. The result is not checked.
+  std::vector<TrackedPixel> Flow(const std::vector<Eigen::Vector2d>& pixels,
+                                 const std::vector<Eigen::Vector2d>& predicted) const;
+
+  // Checks results of Flow(): those that do not return to their pixel, when they are tracked
+  // backward, are lost.
+  void CheckReturn(const std::vector<Eigen::Vector2d>& pixels,
+                   const std::vector<Eigen::Vector2d>& predicted,
+                   std::vector<TrackedPixel>* tracked) const;
+
+  // Tracks pixels by Flow(), and checks them.
   std::vector<TrackedPixel> Track(const std::vector<Eigen::Vector2d>& pixels,
-                                  const std::vector<Eigen::Vector2d>& predicted) const;
+                                  const std::vector<Eigen::Vector2d>& predicted) const {
+    std::vector<TrackedPixel> tracked = Flow(pixels, predicted);
+    CheckReturn(pixels, predicted, &tracked);
+    return tracked;
+  }
 
   // Returns at most `count` corners of the present picture, strongest first, where `allowed` (of
   // the size of the picture) is non-zero, and at a distance from those `taken`.

@@ -11,11 +11,17 @@ PixelTracker::~PixelTracker() = default;
 
 void PixelTracker::SetImage(ColorView /*image*/) {}
 
-std::vector<TrackedPixel> PixelTracker::Track(
+GrayLevels PixelTracker::Levels() const { return {}; }
+
+std::vector<TrackedPixel> PixelTracker::Flow(
     const std::vector<Eigen::Vector2d>& pixels,
     const std::vector<Eigen::Vector2d>& /*predicted*/) const {
   return std::vector<TrackedPixel>(pixels.size());
 }
+
+void PixelTracker::CheckReturn(const std::vector<Eigen::Vector2d>& /*pixels*/,
+                               const std::vector<Eigen::Vector2d>& /*predicted*/,
+                               std::vector<TrackedPixel>* /*tracked*/) const {}
 
 std::vector<Eigen::Vector2d> PixelTracker::Detect(const MaskImage& /*allowed*/,
                                                   const std::vector<Eigen::Vector2d>& /*taken*/,

@@ -53,19 +53,19 @@ double PoseQuality::Score() const {
   return overlap * coverage / (overlap + coverage) / (1.0 + spread * spread);
 }
 
-PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
-                      const CameraPose& camera_from_map,
+PoseQuality QualityOf(const AssociationResult& association,
+                      std::size_t visible,
                       const ObservedSurface& surface,
                       const PoseQualityOptions& options) {
   PoseQuality quality;
-  AssociationOptions association;
-  association.max_distance = options.max_distance;
-  const AssociationResult result = Associate(visible, camera_from_map, surface, association);
-  if (visible.empty() || surface.num_valid() == 0) return quality;
-  quality.overlap =
-      static_cast<double>(result.matches.size()) / static_cast<double>(visible.size());
-  quality.deviation = result.deviation;
-  quality.points = static_cast<int>(result.matches.size());
+  if (visible == 0 || surface.num_valid() == 0) return quality;
+  const auto matched = static_cast<double>(association.matches.size());
+  quality.support = matched / static_cast<double>(visible);
+  quality.overlap = options.trust_gaps
+                        ? matched / std::max(1, association.measured - association.occluded)
+                        : quality.support;
+  quality.deviation = association.deviation;
+  quality.points = static_cast<int>(association.matches.size());
   // Each point covers a square of its spacing; the sum of these areas is compared with that of the
   // patches.
   double covered = 0.0;
@@ -73,7 +73,7 @@ PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
   const auto pixels = [focal](const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
     return focal * std::abs(normal.dot(point)) / point.norm() / (point.z() * point.z());
   };
-  for (const Association& m : result.matches) {
+  for (const Association& m : association.matches) {
     covered +=
         options.point_spacing * options.point_spacing * pixels(m.patch->point, m.patch->normal);
   }
@@ -81,6 +81,16 @@ PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
       static_cast<double>(surface.num_valid()) * surface.cell() * surface.cell();
   quality.coverage = std::min(1.0, covered / observed);
   return quality;
+}
+
+PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
+                      const CameraPose& camera_from_map,
+                      const ObservedSurface& surface,
+                      const PoseQualityOptions& options) {
+  AssociationOptions association;
+  association.max_distance = options.max_distance;
+  return QualityOf(
+      Associate(visible, camera_from_map, surface, association), visible.size(), surface, options);
 }
 
 Relocalization Relocalize(const DeformableMap& map,

@@ -8,14 +8,18 @@
 #include <ceres_ed/slam/frame/visibility.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace ceres_ed {
 
 // How well a pose explains a frame.
 struct PoseQuality {
-  // The share of the map's points that should be in view and lie on the observed surface.
+  // The share of the points in view that lie on the observed surface, among those that count
+  // (PoseQualityOptions::trust_gaps).
   double overlap = 0.0;
+  // The share of all points in view that lie on the observed surface.
+  double support = 0.0;
   // The share of the observed surface that these points cover.
   double coverage = 0.0;
   // The spread of their distances, in map units.
@@ -34,26 +38,39 @@ struct PoseQualityOptions {
   double max_distance = 0.5;
   // The spacing of the map's points, in map units, > 0; default 0.2.
   double point_spacing = 0.2;
+  // Whether the absence of data is no evidence against a pose: then the overlap does not count
+  // points whose pixel has no depth, nor points far behind the observed surface, before which
+  // something else may stand. This must be false for a pose that nothing else supports, because a
+  // wrong pose lays points there, too. Default false.
+  bool trust_gaps = false;
   // A tracked pose is in doubt if its overlap is smaller, or its spread (map units) larger.
   // Defaults 0.7 and 0.15.
   double doubtful_overlap = 0.7;
   double doubtful_deviation = 0.15;
-  // The thresholds that any accepted pose must meet. Defaults 0.6, 0.2 and 0.25 map units.
+  // The thresholds that any accepted pose must meet. Defaults 0.6, 0.1, 0.2 and 0.25 map units.
   double min_overlap = 0.6;
+  double min_support = 0.1;
   double min_coverage = 0.2;
   double max_deviation = 0.25;
 
   // Returns whether a tracked pose is in doubt.
   bool Doubts(const PoseQuality& quality) const {
-    return quality.overlap < doubtful_overlap || quality.coverage < min_coverage ||
-           quality.deviation > doubtful_deviation;
+    return quality.overlap < doubtful_overlap || quality.support < min_support ||
+           quality.coverage < min_coverage || quality.deviation > doubtful_deviation;
   }
   // Returns whether a pose is accepted.
   bool Believes(const PoseQuality& quality) const {
-    return quality.overlap >= min_overlap && quality.coverage >= min_coverage &&
-           quality.deviation <= max_deviation;
+    return quality.overlap >= min_overlap && quality.support >= min_support &&
+           quality.coverage >= min_coverage && quality.deviation <= max_deviation;
   }
 };
+
+// Returns the quality of the pose with which `visible` points were associated. `association` has
+// been made with the distance of `options`.
+PoseQuality QualityOf(const AssociationResult& association,
+                      std::size_t visible,
+                      const ObservedSurface& surface,
+                      const PoseQualityOptions& options);
 
 // Returns the quality of a pose. `visible` are the points in view from that pose, as returned by
 // FindVisible().

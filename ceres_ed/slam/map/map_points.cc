@@ -17,6 +17,8 @@ MapPoints::Record MapPoints::Pack(const MapPoint& point) {
   record.id = point.id;
   record.birth_frame = point.birth_frame;
   record.contradictions = static_cast<std::int16_t>(std::clamp(point.contradictions, 0, 32767));
+  record.sightings = static_cast<std::uint8_t>(std::clamp(point.sightings, 0, 255));
+  record.last_seen = point.last_seen;
   return record;
 }
 

@@ -38,6 +38,28 @@ struct MapPoint {
   // The number of frames in which the camera saw through the point, minus those in which it saw the
   // point; at most 32767.
   int contradictions = 0;
+  // The number of frames in which the point lay on the observed surface, at most 255, and the last
+  // one of these; the frame of its birth is one of them.
+  int sightings = 1;
+  int last_seen = -1;
+
+  // Returns whether the point has been seen in too few frames to be certain.
+  bool IsTentative() const { return sightings < kStableSightings; }
+  // Returns whether so many frames contradict the point that it has to go.
+  bool IsRefuted() const {
+    return contradictions >= (IsTentative() ? kMaxTentativeContradictions : kMaxContradictions);
+  }
+  // Returns how certain the point is, in [0, 1]: 1 after enough sightings without contradiction.
+  double Stability() const {
+    return std::min(1.0, static_cast<double>(sightings) / kStableSightings) *
+           std::max(0.0, 1.0 - static_cast<double>(contradictions) / kMaxContradictions);
+  }
+
+  // Errors of the depth stay where the camera was, and are not seen again at one place of the
+  // tissue.
+  static constexpr int kStableSightings = 4;
+  static constexpr int kMaxContradictions = 5;
+  static constexpr int kMaxTentativeContradictions = 2;
 };
 
 // A binding that owns its memory.
@@ -60,7 +82,7 @@ struct PointBinding {
 };
 
 // Points and their bindings, by slot. Adding a point does not move others in memory. With n =
-// `neighbors`, a point takes 60 + 8 n - 4 bytes: weights have 24 bits, and the weight of the first
+// `neighbors`, a point takes 64 + 8 n - 4 bytes: weights have 24 bits, and the weight of the first
 // node is 1 minus the others, so that the weights sum to 1 in double precision, which matters far
 // from the origin.
 class MapPoints {
@@ -106,18 +128,18 @@ class MapPoints {
  private:
   // A record has no padding, because checkpoints store it as it lies in memory.
   struct Record {
-    // Three doubles as pairs of words; doubles would require an alignment that 60 bytes do not
-    // permit.
-    std::array<std::uint32_t, 6> position = {};
+    std::array<double, 3> position = {};
     std::array<float, 3> birth_position = {};
     float weight = 0.0f;
     int id = -1;
     int birth_frame = -1;
+    int last_seen = -1;
     std::array<std::int16_t, 3> normal = {};
     std::int16_t contradictions = 0;
-    std::array<std::uint8_t, 4> color = {};
+    std::array<std::uint8_t, 3> color = {};
+    std::uint8_t sightings = 0;
   };
-  static_assert(sizeof(Record) == 60, "a record has gaps");
+  static_assert(sizeof(Record) == 64, "a record has gaps");
   static constexpr double kNormalSteps = 32767.0;
 
   static Record Pack(const MapPoint& point);
@@ -144,6 +166,8 @@ inline MapPoint MapPoints::Unpack(const Record& record) {
   point.id = record.id;
   point.birth_frame = record.birth_frame;
   point.contradictions = record.contradictions;
+  point.sightings = record.sightings;
+  point.last_seen = record.last_seen;
   return point;
 }
 
