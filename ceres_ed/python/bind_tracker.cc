@@ -81,6 +81,19 @@ void BindReport(py::module_& module) {
       .def_readonly("map_points", &R::map_points, "The number of all points of the map.")
       .def_readonly("inliers", &R::inliers, "The number of map points near the observed surface.")
       .def_readonly("features", &R::features, "The number of corners that were followed.")
+      .def_readonly("explained",
+                    &R::explained,
+                    "The share of the measured surface that has a counterpart in the map.")
+      .def_readonly(
+          "overlap",
+          &R::overlap,
+          "The share of the points in view, where the surface is measured, that lie on it.")
+      .def_readonly("weak_directions",
+                    &R::weak_directions,
+                    "The number of directions of the camera's motion that are not determined.")
+      .def_readonly("tentative",
+                    &R::tentative,
+                    "The share of the points in view that were seen in fewer than 4 frames.")
       .def_readonly("rms_plane",
                     &R::rms_plane,
                     "The root mean square distance of the inliers to their planes, in metres.")
@@ -130,6 +143,11 @@ All arrays have one row for each point and are views of the snapshot's memory.)"
       .def_property_readonly("weights",
                              Column(&S::weights),
                              "The numbers of observations in the running averages, (N,).")
+      .def_property_readonly(
+          "stabilities", Column(&S::stabilities), "How certain the points are, in [0, 1], (N,).")
+      .def_property_readonly("last_seen",
+                             Column(&S::last_seen),
+                             "The last frames in which the camera saw the points, (N,) int32.")
       .def("__len__", [](const S& self) { return self.points.size(); });
 }
 

@@ -17,15 +17,17 @@ using ::testing::ElementsAre;
 TEST(LiveCloud, ReadsBackAsWritten) {
   const TemporaryDirectory dir;
   std::vector<LivePoint> points(2);
-  points[0] = {{1.5f, -2.25f, 0.1f}, 2147483647, 0, {1e-20f, 3.0f, -4.0f}};
-  points[1] = {{0.0f, 7.0f, 8.0f}, 256, 65535, {9.0f, 10.0f, 11.0f}};
+  points[0] = {{1.5f, -2.25f, 0.1f}, 2147483647, 0, {1e-20f, 3.0f, -4.0f}, 0.75f, 12};
+  points[1] = {{0.0f, 7.0f, 8.0f}, 256, 65535, {9.0f, 10.0f, 11.0f}, 1.0f, 65536};
   ASSERT_TRUE(WriteLiveCloud(dir / "live.ply", points).ok());
   const StatusOr<LoadedCloud> loaded = LoadCloud(dir / "live.ply");
   ASSERT_TRUE(loaded.ok()) << loaded.status().message();
   const PlyElement& vertices = *loaded->document.Find("vertex");
   std::vector<std::string> names;
   for (const PlyProperty& property : vertices.properties) names.push_back(property.name);
-  EXPECT_THAT(names, ElementsAre("x", "y", "z", "id", "birth_frame", "bx", "by", "bz"));
+  EXPECT_THAT(
+      names,
+      ElementsAre("x", "y", "z", "id", "birth_frame", "bx", "by", "bz", "stability", "last_seen"));
   EXPECT_EQ(loaded->cloud.points[0], Eigen::Vector3d(1.5, -2.25, 0.1f));
   EXPECT_THAT(vertices.Find("id")->values, ElementsAre(2147483647.0, 256.0));
   EXPECT_EQ(vertices.Find("id")->type, PlyType::kInt32);
@@ -33,6 +35,8 @@ TEST(LiveCloud, ReadsBackAsWritten) {
   EXPECT_THAT(vertices.Find("bx")->values, ElementsAre(1e-20f, 9.0f));
   EXPECT_THAT(vertices.Find("by")->values, ElementsAre(3.0, 10.0));
   EXPECT_THAT(vertices.Find("bz")->values, ElementsAre(-4.0, 11.0));
+  EXPECT_THAT(vertices.Find("stability")->values, ElementsAre(0.75, 1.0));
+  EXPECT_THAT(vertices.Find("last_seen")->values, ElementsAre(12.0, 65536.0));
 }
 
 TEST(LiveCloud, IsASnapshotForWhoReadsIt) {

@@ -28,6 +28,8 @@ TEST(MapPly, HasAllThatIsKnownOfAPoint) {
   map.ids = {3, 2147483647};
   map.birth_frames = {0, 12};
   map.weights = {1.0, 2.5};
+  map.stabilities = {0.25, 1.0};
+  map.last_seen = {4, 9};
   ASSERT_TRUE(WriteMapCloud(dir / "map.ply", map).ok());
   const StatusOr<LoadedCloud> loaded = LoadCloud(dir / "map.ply");
   ASSERT_TRUE(loaded.ok()) << loaded.status().message();
@@ -38,6 +40,8 @@ TEST(MapPly, HasAllThatIsKnownOfAPoint) {
   EXPECT_EQ(vertices.Find("id")->values[1], 2147483647.0);
   EXPECT_EQ(vertices.Find("birth_frame")->values[1], 12.0);
   EXPECT_EQ(vertices.Find("weight")->values[1], 2.5);
+  EXPECT_EQ(vertices.Find("stability")->values[0], 0.25);
+  EXPECT_EQ(vertices.Find("last_seen")->values[1], 9.0);
 }
 
 class TrajectoryFile : public ::testing::Test {

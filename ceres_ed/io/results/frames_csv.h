@@ -15,7 +15,7 @@ namespace ceres_ed {
 // order. Units are seconds, metres and counts. t_total is the time of the whole frame without
 // t_load (reading and decoding, except for the part that was done during the previous frame) and
 // t_write. NaN, which is an empty cell, means that a value is not known for this frame.
-inline constexpr std::array<const char*, 30> kFrameColumns = {
+inline constexpr std::array<const char*, 34> kFrameColumns = {
     "t_total",         "t_load",
     "t_associate",     "t_camera",
     "t_level1",        "t_level2",
@@ -30,7 +30,9 @@ inline constexpr std::array<const char*, 30> kFrameColumns = {
     "verify_energy",   "verify_batch_energy",
     "verify_gap",      "verify_node_mean",
     "verify_node_max", "verify_camera_deg",
-    "verify_camera_m", "t_verify"};
+    "verify_camera_m", "t_verify",
+    "explained",       "overlap",
+    "weak_directions", "tentative"};
 
 // One row.
 struct FrameRecord {

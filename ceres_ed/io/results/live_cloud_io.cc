@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kRowSize = 32;
+constexpr std::size_t kRowSize = 40;
 constexpr char kExtension[] = ".ply";
 
 // Writes little endian on every machine. Compilers turn this into a single store.
@@ -69,7 +69,8 @@ Status WriteLiveCloud(const std::string& path, const std::vector<LivePoint>& poi
                          std::to_string(points.size()) +
                          "\nproperty float x\nproperty float y\nproperty float z\n"
                          "property int id\nproperty int birth_frame\n"
-                         "property float bx\nproperty float by\nproperty float bz\nend_header\n";
+                         "property float bx\nproperty float by\nproperty float bz\n"
+                         "property float stability\nproperty int last_seen\nend_header\n";
   const std::size_t header_size = contents.size();
   contents.resize(header_size + kRowSize * points.size());
   char* out = contents.data() + header_size;
@@ -78,6 +79,8 @@ Status WriteLiveCloud(const std::string& path, const std::vector<LivePoint>& poi
     Put(point.id, &out);
     Put(point.birth_frame, &out);
     for (int axis = 0; axis < 3; ++axis) Put(point.birth_position[axis], &out);
+    Put(point.stability, &out);
+    Put(point.last_seen, &out);
   }
   return WriteFileAtomically(path, contents);
 }

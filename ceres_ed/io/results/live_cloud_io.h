@@ -20,6 +20,9 @@ struct LivePoint {
   int birth_frame = -1;
   // The position in the camera frame of the birth frame.
   Eigen::Vector3f birth_position = Eigen::Vector3f::Zero();
+  // How certain the point is, in [0, 1], and the last frame in which the camera saw it.
+  float stability = 0.0f;
+  int last_seen = -1;
 };
 
 // Writes a binary PLY of element 'vertex' with float x y z, int id, int birth_frame and float bx by

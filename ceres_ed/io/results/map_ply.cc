@@ -21,7 +21,9 @@ Status WriteMapCloud(const std::string& path, const MapSnapshot& map) {
   options.colors = map.colors;
   options.columns = {Column("id", PlyType::kInt32, map.ids),
                      Column("birth_frame", PlyType::kInt32, map.birth_frames),
-                     Column("weight", PlyType::kFloat32, map.weights)};
+                     Column("weight", PlyType::kFloat32, map.weights),
+                     Column("stability", PlyType::kFloat32, map.stabilities),
+                     Column("last_seen", PlyType::kInt32, map.last_seen)};
   options.comments = {"map frame, metres"};
   return WriteCloud(path, cloud, options);
 }

@@ -27,6 +27,9 @@ struct MapSnapshot {
   std::vector<int> birth_frames;
   // The number of observations in the running average of each point.
   std::vector<double> weights;
+  // How certain each point is, in [0, 1], and the last frame in which the camera saw it.
+  std::vector<double> stabilities;
+  std::vector<int> last_seen;
 
   std::size_t size() const { return points.size(); }
 };

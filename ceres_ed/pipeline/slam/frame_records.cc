@@ -60,6 +60,10 @@ FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& sla
   record["verify_camera_deg"] = batch.done ? batch.camera_deg : nothing;
   record["verify_camera_m"] = batch.done ? batch.camera_distance * slam.unit() : nothing;
   record["t_verify"] = times.verify;
+  record["explained"] = report.explained;
+  record["overlap"] = report.overlap;
+  record["weak_directions"] = report.weak_directions;
+  record["tentative"] = report.tentative;
   return record;
 }
 

@@ -37,6 +37,8 @@ MapSnapshot ExportMap(const DeformableSlam& slam, MapFrame frame) {
         snapshot.ids.push_back(point.id);
         snapshot.birth_frames.push_back(point.birth_frame);
         snapshot.weights.push_back(point.weight);
+        snapshot.stabilities.push_back(point.Stability());
+        snapshot.last_seen.push_back(point.last_seen);
       });
   return snapshot;
 }
@@ -52,6 +54,8 @@ std::vector<LivePoint> ExportLivePoints(const DeformableSlam& slam) {
     live.id = point.id;
     live.birth_frame = point.birth_frame;
     live.birth_position = (slam.unit() * point.birth_position).cast<float>();
+    live.stability = static_cast<float>(point.Stability());
+    live.last_seen = point.last_seen;
     points.push_back(live);
   });
   return points;

@@ -416,6 +416,7 @@ class TrackerOptions:
     lazy_waves_per_frame: int
     lazy_max_seeds: int
     camera: CameraMode
+    rigid: bool
     node_spacing: float
     nodes_in_view: int
     neighbors: int
@@ -450,12 +451,12 @@ class TrackerOptions:
             w_node_prior: float = ..., w_data: float = ..., w_feature: float = ...,
             prior_rotation_deg: float = ..., prior_translation: float = ..., level2: LevelTwo = ...,
             lazy_tolerance: float = ..., lazy_reach: int = ..., lazy_waves_per_frame: int = ...,
-            lazy_max_seeds: int = ..., camera: CameraMode = ..., node_spacing: float = ...,
-            nodes_in_view: int = ..., neighbors: int = ..., features: bool = ..., rounds: int = ...,
-            max_observations: int = ..., max_point_weight: float = ...,
-            memory_max_moments: int = ..., memory_likeness: float = ...,
-            memory_min_common: int = ..., verify_every: int = ..., threads: int = ...,
-            feature_count: int = ..., feature_max_deviations: float = ...,
+            lazy_max_seeds: int = ..., camera: CameraMode = ..., rigid: bool = ...,
+            node_spacing: float = ..., nodes_in_view: int = ..., neighbors: int = ...,
+            features: bool = ..., rounds: int = ..., max_observations: int = ...,
+            max_point_weight: float = ..., memory_max_moments: int = ...,
+            memory_likeness: float = ..., memory_min_common: int = ..., verify_every: int = ...,
+            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
             feature_window: int = ..., feature_pyramid_levels: int = ...,
             feature_light_radius: float = ..., feature_max_round_trip: float = ...,
             feature_min_distance: float = ..., feature_quality: float = ...,
@@ -508,6 +509,14 @@ class FrameReport:
     @property
     def features(self) -> int: ...
     @property
+    def explained(self) -> float: ...
+    @property
+    def overlap(self) -> float: ...
+    @property
+    def weak_directions(self) -> int: ...
+    @property
+    def tentative(self) -> float: ...
+    @property
     def rms_plane(self) -> float: ...
     @property
     def energy(self) -> float: ...
@@ -528,6 +537,10 @@ class MapSnapshot:
     def birth_frames(self) -> NDArray[np.int32]: ...
     @property
     def weights(self) -> NDArray[np.float64]: ...
+    @property
+    def stabilities(self) -> NDArray[np.float64]: ...
+    @property
+    def last_seen(self) -> NDArray[np.int32]: ...
     def __len__(self) -> int: ...
 
 
@@ -541,11 +554,12 @@ class Tracker:
             w_feature: float = ..., prior_rotation_deg: float = ..., prior_translation: float = ...,
             level2: LevelTwo = ..., lazy_tolerance: float = ..., lazy_reach: int = ...,
             lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ..., camera: CameraMode = ...,
-            node_spacing: float = ..., nodes_in_view: int = ..., neighbors: int = ...,
-            features: bool = ..., rounds: int = ..., max_observations: int = ...,
-            max_point_weight: float = ..., memory_max_moments: int = ...,
-            memory_likeness: float = ..., memory_min_common: int = ..., verify_every: int = ...,
-            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
+            rigid: bool = ..., node_spacing: float = ..., nodes_in_view: int = ...,
+            neighbors: int = ..., features: bool = ..., rounds: int = ...,
+            max_observations: int = ..., max_point_weight: float = ...,
+            memory_max_moments: int = ..., memory_likeness: float = ...,
+            memory_min_common: int = ..., verify_every: int = ..., threads: int = ...,
+            feature_count: int = ..., feature_max_deviations: float = ...,
             feature_window: int = ..., feature_pyramid_levels: int = ...,
             feature_light_radius: float = ..., feature_max_round_trip: float = ...,
             feature_min_distance: float = ..., feature_quality: float = ...,
