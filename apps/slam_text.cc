@@ -1,6 +1,7 @@
 #include "apps/slam_text.h"
 
 #include <ceres_ed/pipeline/slam/frame_records.h>
+#include <ceres_ed/pipeline/slam/slam_verdict.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/util/statistics.h>
 
@@ -30,10 +31,10 @@ std::string SlamSummary(const SlamRun& run) {
   const DeformableSlam& slam = *run.slam;
   const double median_s = InterpolatedMedian(ColumnOf(records, "t_total"));
   return Line("status     %s: %s\n", run.status.c_str(), run.message.c_str()) +
-         Line("frames     %zu: %d tracked, %d relocalized, %d lost, %d skipped\n",
+         Line("frames     %zu: %d initialized, %d tracked, %d relocalized, %d lost, %d skipped\n",
               records.size(),
-              CountFrames(records, FrameStatus::kTracked) +
-                  CountFrames(records, FrameStatus::kInitialized),
+              CountFrames(records, FrameStatus::kInitialized),
+              CountFrames(records, FrameStatus::kTracked),
               CountFrames(records, FrameStatus::kRelocalized),
               CountFrames(records, FrameStatus::kLost),
               CountFrames(records, FrameStatus::kSkipped)) +
@@ -44,7 +45,8 @@ std::string SlamSummary(const SlamRun& run) {
          Line("rms        %.3g mm to planes (median of the frames)\n",
               1e3 * InterpolatedMedian(ColumnOf(records, "rms_plane"))) +
          Line("time       %.2f s, %.1f ms a frame (median)\n", run.total_s, 1e3 * median_s) +
-         "output     " + run.settings->output + "\n";
+         "output     " + run.settings->output + "\n" + "verdict    " +
+         JudgeRun(records, slam.unit()).Sentence() + "\n";
 }
 
 std::string ProgressJson(const FrameRecord& record, int done, int total, double frames_per_s) {

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/pipeline/slam/frame_records.h>
+#include <ceres_ed/pipeline/slam/slam_verdict.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/util/statistics.h>
 #include <ceres_ed/version.h>
@@ -62,6 +63,7 @@ ordered_json MemoryReport(const DeformableSlam& slam) {
           {"points", memory.points},
           {"bindings", memory.bindings},
           {"point_lists", memory.point_lists},
+          {"corners", memory.corners},
           {"per_node", per(memory.OfNodes(), slam.map().graph().num_nodes())},
           {"per_point", per(memory.OfPoints(), slam.map().num_points())},
           {"resident_mib", ResidentMemoryMib()}};
@@ -126,6 +128,7 @@ ordered_json SlamReport(const SlamRun& run) {
           {"status", run.status},
           {"message", run.message},
           {"sequence", SequenceReport(run)},
+          {"verdict", VerdictReport(JudgeRun(*run.records, slam.unit()))},
           {"frames", FramesReport(*run.records)},
           {"nodes", NodesReport(slam)},
           {"map", {{"points", slam.map().num_points()}, {"node_spacing", slam.unit()}}},
