@@ -133,6 +133,7 @@ void FeaturePoints::Exchange(CheckpointArchive* archive) {
   archive->Array("followed", &followed_);
   archive->Value("births", &births_);
   archive->Value("pictures", &frame_);
+  archive->Value("continued", &num_continued_);
   if (!archive->saving()) Index();
   archive->Leave();
 }

@@ -132,10 +132,11 @@ bool FeaturePoints::Track(ColorView image,
                           const DeformableMap& map,
                           const CameraPose& camera_from_map) {
   ++frame_;
-  const int before = size();
   tracker_.SetImage(image);
   Follow(surface, map, camera_from_map);
-  const bool continuous = size() > 0 && size() >= kContinuousShare * before;
+  // Many corners that are new in a picture are never found again, and say nothing about the camera.
+  const bool continuous = size() > 0 && size() >= kContinuousShare * num_continued_;
+  num_continued_ = size();
   if (continuous) Search(surface, map, camera_from_map, /*patient=*/false);
   Weigh(map, camera_from_map);
   return continuous;
@@ -377,6 +378,7 @@ void FeaturePoints::Index() {
 }
 
 void FeaturePoints::Clear() {
+  num_continued_ = 0;
   std::fill(is_followed_.begin(), is_followed_.end(), 0);
   followed_.clear();
 }

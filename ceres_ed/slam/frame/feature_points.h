@@ -157,8 +157,9 @@ class FeaturePoints {
   // For each node, the slots of the corners that are bound most strongly to it.
   std::vector<std::vector<int>> of_node_;
   int births_ = 0;
-  // The number of pictures so far.
+  // The number of pictures so far, and of the corners that were followed into the last one.
   int frame_ = 0;
+  int num_continued_ = 0;
 };
 
 }  // namespace ceres_ed
