@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace ceres_ed {
@@ -43,6 +44,20 @@ PointCloud SurfaceCloud(const ObservedSurface& surface) {
     }
   }
   return cloud;
+}
+
+// Returns whether a cloud is large enough to be placed: it has points, and these are not all at one
+// place.
+bool CanBePlaced(const PointCloud& cloud) {
+  constexpr std::size_t kFewestPoints = 50;
+  if (cloud.size() < kFewestPoints) return false;
+  Eigen::Vector3d low = cloud.points[0];
+  Eigen::Vector3d high = low;
+  for (const Eigen::Vector3d& point : cloud.points) {
+    low = low.cwiseMin(point);
+    high = high.cwiseMax(point);
+  }
+  return (high - low).norm() > 0.5;
 }
 
 }  // namespace
@@ -99,8 +114,11 @@ Relocalization Relocalize(const DeformableMap& map,
                           const VisibilityOptions& visibility,
                           const PoseQualityOptions& options) {
   // The whole map is laid onto the observed surface.
-  const Surface source(MapCloud(map));
-  const Surface target(SurfaceCloud(surface));
+  PointCloud source_cloud = MapCloud(map);
+  PointCloud target_cloud = SurfaceCloud(surface);
+  if (!CanBePlaced(source_cloud) || !CanBePlaced(target_cloud)) return {};
+  const Surface source(std::move(source_cloud));
+  const Surface target(std::move(target_cloud));
   Similarity initial;
   initial.rotation = last.rotation;
   initial.translation = last.translation;

@@ -85,9 +85,9 @@ struct Relocalization {
   PoseQuality quality;
 };
 
-// Returns the pose that explains most of the frame, from a search without prediction: AlignRigid()
-// lays the map in its present deformation onto the observed surface, starting from `last` and from
-// many positions and rotations.
+// Returns the pose that explains most of the frame (of quality 0 if there is too little to place),
+// from a search without prediction: AlignRigid() lays the map in its present deformation onto the
+// observed surface, starting from `last` and from many positions and rotations.
 Relocalization Relocalize(const DeformableMap& map,
                           const ObservedSurface& surface,
                           const CameraPose& last,
