@@ -41,6 +41,25 @@ Status Encode(const std::string& path, const cv::Mat& image) {
   return WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
+// The largest depth that a picture of 16 bits can hold: the number above it marks a pixel that is
+// too far or was not measured.
+constexpr std::uint16_t kSaturated = std::numeric_limits<std::uint16_t>::max();
+constexpr double kLargestDepth = kSaturated - 1.0;
+
+// Sets saturated pixels to 0, and returns their number.
+int RemoveSaturated(cv::Mat* image) {
+  int count = 0;
+  for (int v = 0; v < image->rows; ++v) {
+    std::uint16_t* row = image->ptr<std::uint16_t>(v);
+    for (int u = 0; u < image->cols; ++u) {
+      if (row[u] != kSaturated) continue;
+      row[u] = 0;
+      ++count;
+    }
+  }
+  return count;
+}
+
 template <typename Stored>
 DepthImage ToMetres(const cv::Mat& image, double units_per_metre) {
   DepthImage depth(image.cols, image.rows, 0.0F);
@@ -55,11 +74,18 @@ DepthImage ToMetres(const cv::Mat& image, double units_per_metre) {
 
 }  // namespace
 
-StatusOr<DepthImage> ReadDepthImage(const std::string& path, double units_per_metre) {
+StatusOr<DepthImage> ReadDepthImage(const std::string& path,
+                                    double units_per_metre,
+                                    int* saturated) {
   CHECK_GT(units_per_metre, 0.0);
-  const StatusOr<cv::Mat> image = Decode(path, cv::IMREAD_UNCHANGED);
+  if (saturated != nullptr) *saturated = 0;
+  StatusOr<cv::Mat> image = Decode(path, cv::IMREAD_UNCHANGED);
   if (!image.ok()) return image.status();
-  if (image->type() == CV_16UC1) return ToMetres<std::uint16_t>(*image, units_per_metre);
+  if (image->type() == CV_16UC1) {
+    const int count = RemoveSaturated(&*image);
+    if (saturated != nullptr) *saturated = count;
+    return ToMetres<std::uint16_t>(*image, units_per_metre);
+  }
   if (image->type() == CV_8UC1) return ToMetres<std::uint8_t>(*image, units_per_metre);
   return Status::Error(path + ": " + std::to_string(image->channels()) + " channels of " +
                        std::to_string(8 * image->elemSize1()) +
@@ -94,13 +120,12 @@ StatusOr<MaskImage> ReadMaskImage(const std::string& path) {
 
 Status WriteDepthImage(const std::string& path, const DepthImage& depth, double units_per_metre) {
   CHECK_GT(units_per_metre, 0.0);
-  constexpr double kLargest = std::numeric_limits<std::uint16_t>::max();
   cv::Mat image(depth.height(), depth.width(), CV_16UC1);
   for (int v = 0; v < image.rows; ++v) {
     std::uint16_t* row = image.ptr<std::uint16_t>(v);
     for (int u = 0; u < image.cols; ++u) {
       const double units = std::round(static_cast<double>(depth(u, v)) * units_per_metre);
-      const bool fits = units > 0.0 && units <= kLargest;
+      const bool fits = units > 0.0 && units <= kLargestDepth;
       row[u] = fits ? static_cast<std::uint16_t>(units) : std::uint16_t{0};
     }
   }

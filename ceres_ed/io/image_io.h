@@ -10,9 +10,13 @@
 namespace ceres_ed {
 
 // Reads a depth image of one channel with 16 (or 8) bits: metres = stored number / units_per_metre.
-// 0 stays 0, which means "no depth". The error names the file: it can't be opened or decoded, it
-// has colours, or its numbers have another type.
-StatusOr<DepthImage> ReadDepthImage(const std::string& path, double units_per_metre);
+// 0 stays 0, which means "no depth". So does the largest number of 16 bits, 65535, with which
+// sensors mark pixels that are too far or were not measured; their number is written to
+// `saturated`, if that is not null. The error names the file: it can't be opened or decoded, it has
+// colours, or its numbers have another type.
+StatusOr<DepthImage> ReadDepthImage(const std::string& path,
+                                    double units_per_metre,
+                                    int* saturated = nullptr);
 
 // Reads a colour image with 8 bits in each channel. A grey image gets red = green = blue. Errors
 // are as above.
@@ -22,8 +26,8 @@ StatusOr<ColorImage> ReadColorImage(const std::string& path);
 StatusOr<MaskImage> ReadMaskImage(const std::string& path);
 
 // The following two functions write a PNG under a temporary name and then rename it. Depth is
-// rounded to the nearest unit. A depth that is not finite, not positive or too large for 16 bits is
-// written as 0.
+// rounded to the nearest unit. A depth that is not finite, not positive or too large (65534 units)
+// is written as 0.
 Status WriteDepthImage(const std::string& path, const DepthImage& depth, double units_per_metre);
 Status WriteColorImage(const std::string& path, const ColorImage& color);
 

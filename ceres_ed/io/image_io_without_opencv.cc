@@ -11,7 +11,9 @@ Status NoPictures(const std::string& path) {
 
 }  // namespace
 
-StatusOr<DepthImage> ReadDepthImage(const std::string& path, double /*units_per_metre*/) {
+StatusOr<DepthImage> ReadDepthImage(const std::string& path,
+                                    double /*units_per_metre*/,
+                                    int* /*saturated*/) {
   return NoPictures(path);
 }
 

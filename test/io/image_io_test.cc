@@ -2,6 +2,7 @@
 
 #include "io_test_util.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
@@ -44,11 +45,14 @@ class Images : public ::testing::Test {
 
 TEST_F(Images, DepthOf16BitsIsUnitsInMetres) {
   WriteBytes(path_, FromHex(kGrey16));
-  const StatusOr<DepthImage> depth = ReadDepthImage(path_, 1000.0);
+  int saturated = -1;
+  const StatusOr<DepthImage> depth = ReadDepthImage(path_, 1000.0, &saturated);
   ASSERT_TRUE(depth.ok()) << depth.status().message();
   EXPECT_EQ(depth->width(), 4);
   EXPECT_EQ(depth->height(), 1);
-  EXPECT_THAT(depth->pixels(), ElementsAre(0.0F, 0.001F, 0.258F, 65.535F));
+  // The largest number is no depth.
+  EXPECT_THAT(depth->pixels(), ElementsAre(0.0F, 0.001F, 0.258F, 0.0F));
+  EXPECT_EQ(saturated, 1);
 }
 
 TEST_F(Images, DepthOf8BitsIsUnitsInMetres) {
@@ -59,12 +63,12 @@ TEST_F(Images, DepthOf8BitsIsUnitsInMetres) {
 }
 
 TEST_F(Images, DepthOfEveryUnitSurvivesTheRoundTrip) {
-  // All 65536 numbers, with units below and above those of real sensors.
+  // All numbers but the largest, with units below and above those of real sensors.
   for (const double units_per_metre : {1000.0, 5000.0, 100000.0}) {
     DepthImage written(256, 256);
     for (int v = 0; v < 256; ++v) {
       for (int u = 0; u < 256; ++u) {
-        written(u, v) = static_cast<float>((256 * v + u) / units_per_metre);
+        written(u, v) = static_cast<float>(std::min(65534, 256 * v + u) / units_per_metre);
       }
     }
     ASSERT_TRUE(WriteDepthImage(path_, written, units_per_metre).ok());
@@ -83,12 +87,12 @@ TEST_F(Images, DepthIsRoundedAndWhatDoesNotFitIsNone) {
                       -1.0F,
                       std::numeric_limits<float>::quiet_NaN(),
                       std::numeric_limits<float>::infinity(),
-                      65.535F,
-                      65.6F};
+                      65.534F,
+                      65.535F};
   ASSERT_TRUE(WriteDepthImage(path_, written, 1000.0).ok());
   const StatusOr<DepthImage> read = ReadDepthImage(path_, 1000.0);
   ASSERT_TRUE(read.ok()) << read.status().message();
-  EXPECT_THAT(read->pixels(), ElementsAre(0.001F, 0.002F, 0.0F, 0.0F, 0.0F, 0.0F, 65.535F, 0.0F));
+  EXPECT_THAT(read->pixels(), ElementsAre(0.001F, 0.002F, 0.0F, 0.0F, 0.0F, 0.0F, 65.534F, 0.0F));
 }
 
 TEST_F(Images, ColorSurvivesTheRoundTripWithItsChannelsInOrder) {

@@ -70,9 +70,11 @@ Status DepthSequence::CheckSize(const std::string& path, int width, int height) 
 }
 
 Status DepthSequence::LoadDepth(const SequenceEntry& entry,
-                                DepthImage* depth,
+                                DepthFrame* frame,
                                 FrameProblem* problem) const {
-  StatusOr<DepthImage> read = ReadDepthImage(entry.depth_path, depth_units_per_metre());
+  DepthImage* const depth = &frame->depth;
+  StatusOr<DepthImage> read =
+      ReadDepthImage(entry.depth_path, depth_units_per_metre(), &frame->saturated);
   *problem = FrameProblem::kUnreadable;
   if (!read.ok()) return read.status();
   *depth = std::move(*read);
@@ -119,7 +121,7 @@ StatusOr<DepthFrame> DepthSequence::Load(int i, FrameProblem* problem) const {
   DepthFrame frame;
   frame.number = entry.number;
   frame.time_s = entry.time_s;
-  Status status = LoadDepth(entry, &frame.depth, problem);
+  Status status = LoadDepth(entry, &frame, problem);
   if (status.ok() && !entry.color_path.empty()) status = LoadColor(entry, &frame, problem);
   if (!status.ok()) return status;
   return frame;

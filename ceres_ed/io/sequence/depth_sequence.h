@@ -85,6 +85,8 @@ struct DepthFrame {
   double time_s = 0.0;
   // The depth in metres, of the camera's size; 0 where nothing was measured or the mask is zero.
   DepthImage depth;
+  // The number of pixels whose depth was the largest number of the file, 65535: they are left out.
+  int saturated = 0;
   // The colour image of the same size, or empty.
   ColorImage color;
   // The reason why `color` is empty although the sequence has a file for it; otherwise empty.
@@ -140,7 +142,7 @@ class DepthSequence {
   const SequenceEntry& entry(int i) const;
   // Returns an error unless an image of `path` has the camera's size.
   Status CheckSize(const std::string& path, int width, int height) const;
-  Status LoadDepth(const SequenceEntry& entry, DepthImage* depth, FrameProblem* problem) const;
+  Status LoadDepth(const SequenceEntry& entry, DepthFrame* frame, FrameProblem* problem) const;
   Status LoadColor(const SequenceEntry& entry, DepthFrame* frame, FrameProblem* problem) const;
 
   std::unique_ptr<const SequenceListing> listing_;

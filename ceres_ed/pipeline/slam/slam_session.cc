@@ -99,6 +99,12 @@ Outcome SlamSession::TakeFrame() {
   } else {
     if (!frame->warning.empty()) warnings_->Add("color", frame->warning);
     CheckDepth(frame->depth);
+    if (frame->saturated > 0) {
+      warnings_->Add("saturated",
+                     "frame " + std::to_string(frame->number) + ": " +
+                         std::to_string(frame->saturated) +
+                         " pixels have the largest depth, 65535, and are left out");
+    }
     Outcome outcome = Track(*frame, index, &record);
     if (!outcome.done()) return outcome;
   }
