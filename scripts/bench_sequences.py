@@ -9,7 +9,9 @@ one (A B A B ...), so both meet the same state of the machine. One run follows a
   frames   number of frames, and of these: reloc (camera found again), lost, skipped (nothing to see)
   surface  distance of visible map points to the true surface: median of a frame, median of the frames
   seen     tracking error: distance of a map point to the place of its tissue; mean of points in view
+  worst    the largest of these means of a frame
   hidden   the same for points out of view or behind others
+  map      95th percentile of the distances of all map points to the true surface, last live cloud
   camera   rms error of the camera's position (camera and tissue may exchange motion)
   px       median error of the given 2D tracks; tracks: followed / given
   plane    rms distance of inliers to the planes of the depth image, median of the frames
@@ -32,6 +34,7 @@ The script exits with 1 when a run fails or two runs of one variant differ, and 
   scripts/bench_sequences.py --sequences=heart,kidney,stomach --compare-flags="--mode=batch"
   scripts/bench_sequences.py --sequences=invivo_heart_40 --runs=3 --json=build/sequences.json
   scripts/bench_sequences.py --compare-bin=../before/build/release/apps
+  scripts/bench_sequences.py --sequences=hard       # orbits, cover, jumps (hard_sequences.py)
   scripts/bench_sequences.py --page      # then scripts/refresh_pages.sh, for the README
 """
 import argparse
@@ -44,6 +47,7 @@ from pathlib import Path
 
 from bench_tables import (PAGE, add_page_option, cell, check_marks, print_table, ratio_row, table,
                           write_between)
+from hard_sequences import hard_sequences
 from program_runs import PROGRAM, ROOT, RunFailed, Variant, default_folders, wrong_call
 from sequence_runs import (CACHE, SCENES, STAGES, counts_of, digest, errors_of, evaluate,
                            find_sequences, read_frames, simulate, static_residual, times_of, track)
@@ -55,7 +59,8 @@ TIMES = ("ms", "ms_p95", *(f"ms_{stage}" for stage in STAGES), "cpu", "wall_s", 
 COLUMNS = [
     ("sequence", "sequence", None), ("frames", "frames", 0), ("relocalized", "reloc", 0),
     ("lost", "lost", 0), ("skipped", "skipped", 0), ("surface_seen", "surface", 3),
-    ("tracking_seen", "seen", 3), ("tracking_hidden", "hidden", 3), ("camera", "camera", 2),
+    ("tracking_seen", "seen", 3), ("seen_worst", "worst", 2), ("tracking_hidden", "hidden", 3), ("map_p95", "map", 2),
+    ("camera", "camera", 2),
     ("track_px", "px", 2), ("tracks", "tracks", None), ("rms_plane", "plane", 3),
     ("static", "static", 3), ("depth", "depth", 3), ("ms", "ms", 1), ("ms_p95", "p95", 1),
     ("cpu", "cpu", 1), *((f"ms_{stage}", stage, 1) for stage in STAGES), ("memory_mb", "MB", 0),
@@ -118,11 +123,14 @@ def list_sequences(options):
         made[scene] = make
     found = {sequence.name: (lambda sequence=sequence: sequence)
              for sequence in find_sequences(options.data)}
-    known = {**found, **made}
+    hard = hard_sequences(options.bin / "ed_simulate", options.cache, options.fresh)
+    if names == ["hard"]:
+        names = list(hard)
+    known = {**found, **made, **hard}
     unknown = set(names) - set(known)
     if unknown:
         wrong_call(f"no sequence {', '.join(sorted(unknown))}; there are {', '.join(known)}")
-    return {name: known[name] for name in names or known}
+    return {name: known[name] for name in names or {**found, **made}}
 
 
 def run_once(variant, sequence, output):

@@ -144,6 +144,9 @@ def errors_of(evaluation):
                                      ("tracking_hidden", "tracking_hidden_mean", "mean")):
             if summary[figure]:
                 figures[name] = 1e3 * summary[figure][across]
+        if summary["tracking_seen_mean"]:
+            figures["seen_worst"] = 1e3 * summary["tracking_seen_mean"]["max"]
+        figures["map_p95"] = 1e3 * evaluation["truth"]["frames"][-1]["surface_all"]["p95"]
     if evaluation["camera"]:
         camera = evaluation["camera"]["from_first_frame"]
         figures["camera"] = 1e3 * camera["translation_rmse"]
