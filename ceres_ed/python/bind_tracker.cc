@@ -151,50 +151,9 @@ All arrays have one row for each point and are views of the snapshot's memory.)"
       .def("__len__", [](const S& self) { return self.points.size(); });
 }
 
-void BindTrackerClass(py::module_& module) {
-  py::class_<Tracker>(module,
-                      "Tracker",
-                      R"(Tracks camera and tissue in depth frames, and builds a map of the tissue.
-
-Lengths are in metres. The frame of the map is that of the first camera. Only one thread at a
-time may use a tracker: a call during a call of another thread raises a RuntimeError.)")
-      .def(py::init<const PinholeCamera&,
-                    const SlamOptions*,
-                    const py::object&,
-                    const py::object&,
-                    const py::kwargs&>(),
-           py::arg("intrinsics"),
-           py::arg("options") = nullptr,
-           py::kw_only(),
-           py::arg("energies") = py::none(),
-           py::arg("plugin") = py::none(),
-           R"(Makes a tracker without a map.
-
-The options of TrackerOptions may be given as keywords, which take precedence over `options`.
-`energies` and `plugin` are those of fit(). Raises a ValueError for a bad value.)")
-      .def("track",
-           &Tracker::Track,
-           py::arg("depth"),
-           py::arg("color") = py::none(),
-           py::arg("pose") = py::none(),
-           py::kw_only(),
-           py::arg("units_per_metre") = py::none(),
-           py::arg("number") = py::none(),
-           py::arg("catch_up") = false,
-           R"(Processes the next frame and returns its FrameReport.
-
-Other Python threads run during the call.
-
-Args:
-  depth: (height, width), the depth along the optical axis; 0 or NaN where there is none. Contiguous
-    float32 metres are used as they are; anything else is converted.
-  color: (height, width, 3) uint8, red, green and blue.
-  pose: (4, 4), camera to world, in metres; for camera='given'.
-  units_per_metre: the unit of `depth`, for example 1000 for millimetres; required for integers.
-  number: the number of the frame; None means the one after the last.
-  catch_up: whether the whole map will be requested after this frame.
-Raises:
-  ValueError: an image has another shape or type, or a pose is not a rigid motion.)")
+// What a tracker tells of its map.
+void BindTrackerMap(py::class_<Tracker>* tracker) {
+  (*tracker)
       .def("snapshot",
            &Tracker::Snapshot,
            py::arg("frame") = "map",
@@ -236,6 +195,55 @@ Nodes out of view that lazy Level II has not moved yet are moved first.)")
           &Tracker::PointRelevant,
           "(nodes,) bool: whether the node had data in the last tracked frame, or was added in it.")
       .def("__len__", &Tracker::NumPoints, "Returns the number of points of the map.");
+}
+
+void BindTrackerClass(py::module_& module) {
+  py::class_<Tracker> tracker(
+      module,
+      "Tracker",
+      R"(Tracks camera and tissue in depth frames, and builds a map of the tissue.
+
+Lengths are in metres. The frame of the map is that of the first camera. Only one thread at a
+time may use a tracker: a call during a call of another thread raises a RuntimeError.)");
+  tracker
+      .def(py::init<const PinholeCamera&,
+                    const SlamOptions*,
+                    const py::object&,
+                    const py::object&,
+                    const py::kwargs&>(),
+           py::arg("intrinsics"),
+           py::arg("options") = nullptr,
+           py::kw_only(),
+           py::arg("energies") = py::none(),
+           py::arg("plugin") = py::none(),
+           R"(Makes a tracker without a map.
+
+The options of TrackerOptions may be given as keywords, which take precedence over `options`.
+`energies` and `plugin` are those of fit(). Raises a ValueError for a bad value.)")
+      .def("track",
+           &Tracker::Track,
+           py::arg("depth"),
+           py::arg("color") = py::none(),
+           py::arg("pose") = py::none(),
+           py::kw_only(),
+           py::arg("units_per_metre") = py::none(),
+           py::arg("number") = py::none(),
+           py::arg("catch_up") = false,
+           R"(Processes the next frame and returns its FrameReport.
+
+Other Python threads run during the call.
+
+Args:
+  depth: (height, width), the depth along the optical axis; 0 or NaN where there is none. Contiguous
+    float32 metres are used as they are; anything else is converted.
+  color: (height, width, 3) uint8, red, green and blue.
+  pose: (4, 4), camera to world, in metres; for camera='given'.
+  units_per_metre: the unit of `depth`, for example 1000 for millimetres; required for integers.
+  number: the number of the frame; None means the one after the last.
+  catch_up: whether the whole map will be requested after this frame.
+Raises:
+  ValueError: an image has another shape or type, or a pose is not a rigid motion.)");
+  BindTrackerMap(&tracker);
 }
 
 }  // namespace

@@ -304,6 +304,7 @@ void FeaturePoints::MergeDoubles() {
 void FeaturePoints::Weigh(const DeformableMap& map, const CameraPose& camera_from_map) {
   const std::vector<PointMatch> matches = Matches(map);
   std::vector<Eigen::Vector3d> motions;
+  motions.reserve(matches.size());
   for (const PointMatch& m : matches) motions.push_back(m.in_camera - camera_from_map * m.in_map);
   std::vector<std::pair<double, std::size_t>> order(matches.size());
   for (std::size_t k = 0; k < matches.size(); ++k) {
