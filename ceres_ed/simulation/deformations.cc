@@ -48,8 +48,16 @@ void ApplyBend(const Bend& bend, double* s, double* h) {
 
 // Applies a bend of constant curvature about s = 0.
 void ApplyArc(double curvature, double* s, double* h) {
-  if (curvature == 0.0) return;
   const double theta = curvature * *s;
+  // The circle of a body that is nearly straight has a centre so far away that its digits would be
+  // lost; the first order is exact there.
+  constexpr double kNearlyStraight = 1e-7;
+  if (std::abs(curvature) < kNearlyStraight) {
+    const double across = *h;
+    *h += 0.5 * theta * *s;
+    *s -= theta * across;
+    return;
+  }
   const double radius = 1.0 / curvature - *h;
   *s = radius * std::sin(theta);
   *h = 1.0 / curvature - radius * std::cos(theta);

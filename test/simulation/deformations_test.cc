@@ -48,6 +48,15 @@ TEST_P(SyntheticDeformation, PhaseZeroIsTheIdentity) {
   }
 }
 
+TEST_P(SyntheticDeformation, TinyPhaseMovesTinyDistances) {
+  for (const double phase : {1e-17, 1e-12, 1e-8, 2e-7, 3e-7}) {
+    for (const Eigen::Vector3d& point : rest_.points) {
+      // No point moves farther than about the size of the body at phase 1.
+      EXPECT_LT((Deform(phase, point) - point).norm(), (2.0 * phase + 1e-8) * kSize) << phase;
+    }
+  }
+}
+
 TEST_P(SyntheticDeformation, NeverFoldsOnOrInsideTheBody) {
   for (const double phase : {0.5, 1.0}) {
     double least = 1e30;
