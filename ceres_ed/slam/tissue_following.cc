@@ -1,7 +1,6 @@
 // The changes of the map in a frame after the camera has been found: Level I and II, fusion,
 // growth.
 #include <ceres_ed/slam/frame/association.h>
-#include <ceres_ed/slam/frame/relocalization.h>
 #include <ceres_ed/slam/tracker.h>
 #include <ceres_ed/util/statistics.h>
 #include <ceres_ed/util/timer.h>
@@ -171,7 +170,7 @@ void Tracker::FollowTissue(const ObservedSurface& surface, bool catch_up, FrameR
   features_.DropOutliers(map_, std::max(noise, kLeastFeatureDeviation));
   const AssociationResult association =
       Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());
-  Measure(surface, association, noise, report);
+  Measure(association, noise, report);
   report->times.associate += timer.Restart();
   Fuse(association, report->number, surface.noise());
   report->times.warp += timer.Restart();
@@ -189,10 +188,7 @@ void Tracker::Verify(const FrameObservations& observations, FrameReport* report)
 }
 
 // Measures how well the deformed map lies on the surface.
-void Tracker::Measure(const ObservedSurface& surface,
-                      const AssociationResult& association,
-                      double noise,
-                      FrameReport* report) {
+void Tracker::Measure(const AssociationResult& association, double noise, FrameReport* report) {
   const double width = kInlierWidth * std::max(association.deviation, noise);
   double squares = 0.0;
   for (const Association& m : association.matches) {
@@ -201,11 +197,7 @@ void Tracker::Measure(const ObservedSurface& surface,
     squares += m.distance * m.distance;
   }
   report->points = static_cast<int>(association.matches.size());
-  PoseQualityOptions judge;
-  judge.point_spacing = options_.growth.point_spacing;
-  judge.trust_gaps = true;
-  const PoseQuality quality = QualityOf(association, visible_.size(), surface, judge);
-  report->overlap = quality.overlap;
+  report->overlap = association.MatchedShare();
   int tentative = 0;
   for (const VisiblePoint& point : visible_) {
     if (map_.point(point.slot).IsTentative()) ++tentative;

@@ -14,14 +14,14 @@ namespace {
 // A pose that was found by a search replaces a tracked pose if its score is better by this factor,
 // and if it explains this share of the points of the frame before.
 constexpr double kClearlyBetter = 1.2;
-// The same for a tracked pose that could be accepted and is where it was expected: within this
+constexpr double kLeastOfBefore = 0.4;
+// The factor for a tracked pose that could be accepted and is where it was expected: within this
 // distance of the prediction, in the coordinates of MotionInformation (map units).
 constexpr double kMuchBetter = 2.0;
 constexpr double kSmoothMotion = 2.0;
 // The number of frames in which a pose that was found by a search has to explain what is seen
 // before the map follows.
 constexpr int kProvingFrames = 5;
-constexpr double kLeastOfBefore = 0.4;
 // A tracked pose is right if at least this many corners were followed, and this share of them lies
 // within this distance (map units) of the map.
 constexpr int kFewestCorners = 20;
@@ -235,9 +235,9 @@ int Tracker::FindCorners(const ObservedSurface& surface,
 
 // Finds the camera when the corners are not where they were expected, as after a gap or a jump:
 // from the pose that the depth tells, from the one at which corners are recognised by their
-// descriptors, and, if neither is confirmed by corners, from a search by the depth alone. Returns
-// whether corners confirm the result.
-bool Tracker::FindCameraAnew(const ObservedSurface& surface,
+// descriptors, and, if neither is confirmed by corners, from a search by the depth alone. If
+// corners confirm none of them, there are no matches, and the pose is that of the depth.
+void Tracker::FindCameraAnew(const ObservedSurface& surface,
                              std::vector<PointMatch>* matches,
                              CameraTrackerResult* tracked) {
   const CameraTrackerResult by_depth = *tracked;
@@ -260,13 +260,11 @@ bool Tracker::FindCameraAnew(const ObservedSurface& surface,
   }
   if (best > 0) {
     FindCorners(surface, best_start, matches, tracked);
-    return true;
+    return;
   }
   *tracked = by_depth;
   matches->clear();
   features_.Clear();
-  visible_ = FindVisible(map_, by_depth.camera_from_map, camera_, VisibilityOptions());
-  return false;
 }
 
 // Decides whether a tracked pose is right. One that explains the frame badly is compared with a

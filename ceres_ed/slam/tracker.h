@@ -56,7 +56,7 @@ class Tracker final : public DeformableSlam {
                   const CameraPose& start,
                   std::vector<PointMatch>* matches,
                   CameraTrackerResult* tracked);
-  bool FindCameraAnew(const ObservedSurface& surface,
+  void FindCameraAnew(const ObservedSurface& surface,
                       std::vector<PointMatch>* matches,
                       CameraTrackerResult* tracked);
   bool Confirm(const ObservedSurface& surface,
@@ -74,10 +74,7 @@ class Tracker final : public DeformableSlam {
   void NoteRecalled();
   void NoteNewNodes();
   double FeatureDeviation() const;
-  void Measure(const ObservedSurface& surface,
-               const AssociationResult& association,
-               double noise,
-               FrameReport* report);
+  void Measure(const AssociationResult& association, double noise, FrameReport* report);
   void Fuse(const AssociationResult& association, int frame, double noise);
   // Notes that a visible point, whose data are `point`, is not where it should be, and removes it
   // if this has happened too often. Its slot in visible_ is -1 then.

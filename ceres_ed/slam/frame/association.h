@@ -6,6 +6,7 @@
 #include <ceres_ed/slam/frame/observed_surface.h>
 #include <ceres_ed/slam/frame/visibility.h>
 
+#include <algorithm>
 #include <vector>
 
 #include <Eigen/Core>
@@ -46,6 +47,11 @@ struct AssociationResult {
   int occluded = 0;
   // The RobustDeviation() of the matches' distances.
   double deviation = 0.0;
+
+  // Returns the share of the points with a patch that match it, without those that are occluded.
+  double MatchedShare() const {
+    return static_cast<double>(matches.size()) / std::max(1, measured - occluded);
+  }
 };
 
 // Associates the points with the patches at their pixels.

@@ -307,6 +307,7 @@ void FeaturePoints::Weigh(const DeformableMap& map, const CameraPose& camera_fro
   motions.reserve(matches.size());
   for (const PointMatch& m : matches) motions.push_back(m.in_camera - camera_from_map * m.in_map);
   std::vector<std::pair<double, std::size_t>> order(matches.size());
+  std::array<std::vector<double>, 3> near;
   for (std::size_t k = 0; k < matches.size(); ++k) {
     for (std::size_t n = 0; n < matches.size(); ++n) {
       order[n] = {(matches[n].in_map - matches[k].in_map).squaredNorm(), n};
@@ -315,7 +316,7 @@ void FeaturePoints::Weigh(const DeformableMap& map, const CameraPose& camera_fro
     const std::size_t count = std::min<std::size_t>(kWeighingNeighbors + 1, order.size());
     std::partial_sort(
         order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
-    std::array<std::vector<double>, 3> near;
+    for (std::vector<double>& values : near) values.clear();
     for (std::size_t n = 1; n < count; ++n) {
       if (order[n].first > kWeighingDistance * kWeighingDistance) break;
       for (int axis = 0; axis < 3; ++axis) near[axis].push_back(motions[order[n].second][axis]);

@@ -68,17 +68,18 @@ double PoseQuality::Score() const {
   return overlap * coverage / (overlap + coverage) / (1.0 + spread * spread);
 }
 
-PoseQuality QualityOf(const AssociationResult& association,
-                      std::size_t visible,
+PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
+                      const CameraPose& camera_from_map,
                       const ObservedSurface& surface,
                       const PoseQualityOptions& options) {
   PoseQuality quality;
-  if (visible == 0 || surface.num_valid() == 0) return quality;
-  const auto matched = static_cast<double>(association.matches.size());
-  quality.support = matched / static_cast<double>(visible);
-  quality.overlap = options.trust_gaps
-                        ? matched / std::max(1, association.measured - association.occluded)
-                        : quality.support;
+  if (visible.empty() || surface.num_valid() == 0) return quality;
+  AssociationOptions near;
+  near.max_distance = options.max_distance;
+  const AssociationResult association = Associate(visible, camera_from_map, surface, near);
+  quality.support =
+      static_cast<double>(association.matches.size()) / static_cast<double>(visible.size());
+  quality.overlap = options.trust_gaps ? association.MatchedShare() : quality.support;
   quality.deviation = association.deviation;
   quality.points = static_cast<int>(association.matches.size());
   // Each point covers a square of its spacing; the sum of these areas is compared with that of the
@@ -96,16 +97,6 @@ PoseQuality QualityOf(const AssociationResult& association,
       static_cast<double>(surface.num_valid()) * surface.cell() * surface.cell();
   quality.coverage = std::min(1.0, covered / observed);
   return quality;
-}
-
-PoseQuality JudgePose(const std::vector<VisiblePoint>& visible,
-                      const CameraPose& camera_from_map,
-                      const ObservedSurface& surface,
-                      const PoseQualityOptions& options) {
-  AssociationOptions association;
-  association.max_distance = options.max_distance;
-  return QualityOf(
-      Associate(visible, camera_from_map, surface, association), visible.size(), surface, options);
 }
 
 Relocalization Relocalize(const DeformableMap& map,

@@ -8,7 +8,6 @@
 #include <ceres_ed/slam/frame/visibility.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 
-#include <cstddef>
 #include <vector>
 
 namespace ceres_ed {
@@ -64,13 +63,6 @@ struct PoseQualityOptions {
            quality.coverage >= min_coverage && quality.deviation <= max_deviation;
   }
 };
-
-// Returns the quality of the pose with which `visible` points were associated. `association` has
-// been made with the distance of `options`.
-PoseQuality QualityOf(const AssociationResult& association,
-                      std::size_t visible,
-                      const ObservedSurface& surface,
-                      const PoseQualityOptions& options);
 
 // Returns the quality of a pose. `visible` are the points in view from that pose, as returned by
 // FindVisible().
