@@ -200,6 +200,7 @@ void TissueMemory::Exchange(CheckpointArchive* archive) {
 void Tracker::Exchange(CheckpointArchive* archive) {
   archive->Enter("slam");
   archive->Value("unit", &unit_);
+  archive->Value("surface_radius", &surface_radius_);
   ExchangePose("world_from_map", &world_from_map_, archive);
   ExchangePose("camera_step", &camera_step_, archive);
   archive->Value("points_before", &points_before_);

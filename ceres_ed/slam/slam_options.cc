@@ -135,9 +135,13 @@ const OptionTable<ObservedSurfaceOptions>& ObservedSurfaceOptions::Rows() {
       Row(&O::cell, "cell", "The distance between two cells of the grid of planes.")
           .In(AtLeast(1))
           .Unit("pixels"),
-      Row(&O::radius, "radius", "A plane is fitted to the pixels within this distance.")
+      Row(&O::radius, "radius", "A plane is fitted to the pixels within this distance at least.")
           .In(Between(1, 1000))
           .Unit("pixels"),
+      Row(&O::max_slope_noise,
+          "max_slope_noise",
+          "If noise makes the slopes of planes less certain, their radius is larger.")
+          .In(Above(0)),
       Row(&O::max_slope_deg, "max_slope_deg", "A steeper slope is taken for a jump in depth.")
           .In(Inside(0, 90))
           .Unit("degrees"),

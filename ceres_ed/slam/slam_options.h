@@ -154,7 +154,12 @@ struct ObservedSurfaceOptions {
   // The distance between two cells of the grid; pixels, >= 1, default 2.
   int cell = 2;
   // A plane is fitted to the (2 radius + 1)^2 pixels around a cell; pixels, [1, 1000], default 3.
+  // The tracker takes a larger radius if the slopes of the planes are too uncertain with this one.
   int radius = 3;
+  // The largest standard deviation of a plane's slope (the tangent of the angle of its normal) that
+  // noise may cause in the first frame; > 0, default 0.1. The tracker chooses the radius so, but
+  // none above 12 pixels.
+  double max_slope_noise = 0.1;
   // Slopes steeper than this relative to the picture are treated as a jump of the depth; degrees,
   // (0, 90), default 80.
   double max_slope_deg = 80.0;

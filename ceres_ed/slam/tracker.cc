@@ -45,6 +45,9 @@ bool CornersAgree(const std::vector<PointMatch>& matches, const CameraPose& came
   return count >= kFewestCorners && count >= kAgreeingCorners * static_cast<double>(matches.size());
 }
 
+// A radius with which fewer patches than this share are left is too large for what is seen.
+constexpr double kLeastSmoothed = 0.7;
+
 // Patches farther away than this many times the median depth are not a part of the scene, but of
 // its background, or errors.
 constexpr double kFarthest = 4.0;
@@ -111,7 +114,7 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
   const bool first = unit_ == 0.0;
   if (first) Initialize(frame);
   if (unit_ == 0.0) return report;
-  const ObservedSurface surface(frame.depth, camera_, 1.0 / unit_, options_.surface);
+  const ObservedSurface surface = Smooth(frame.depth, 1.0 / unit_, surface_radius_);
   report.times.observe = timer.Seconds();
   if (surface.num_valid() == 0) {
     gap_ = true;
@@ -130,9 +133,21 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
   return report;
 }
 
+ObservedSurface Tracker::Smooth(DepthView depth, double scale, int radius) const {
+  ObservedSurfaceOptions options = options_.surface;
+  options.radius = radius;
+  return {depth, camera_, scale, options};
+}
+
 void Tracker::Initialize(const SlamFrame& frame) {
-  const ObservedSurface surface(frame.depth, camera_, 1.0, options_.surface);
-  if (surface.num_valid() == 0) return;
+  const ObservedSurface rough = Smooth(frame.depth, 1.0, options_.surface.radius);
+  if (rough.num_valid() == 0) return;
+  surface_radius_ = rough.RadiusForNoise();
+  ObservedSurface surface = Smooth(frame.depth, 1.0, surface_radius_);
+  if (surface.num_valid() < kLeastSmoothed * rough.num_valid()) {
+    surface_radius_ = options_.surface.radius;
+    surface = rough;
+  }
   // The unit is one node spacing: on a plane each node has an area of 0.87 square spacings.
   unit_ = options_.node_spacing > 0.0
               ? options_.node_spacing

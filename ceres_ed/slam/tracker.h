@@ -50,6 +50,7 @@ class Tracker final : public DeformableSlam {
 
  private:
   void Initialize(const SlamFrame& frame);
+  ObservedSurface Smooth(DepthView depth, double scale, int radius) const;
   CameraPose Predict(const SlamFrame& frame) const;
   bool FindCamera(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
   int FindCorners(const ObservedSurface& surface,
@@ -92,6 +93,8 @@ class Tracker final : public DeformableSlam {
   FeaturePoints features_;
   TissueMemory memory_;
   double unit_ = 0.0;
+  // The radius in pixels of the patches of a frame, which depends on the noise of the first frame.
+  int surface_radius_ = 0;
   std::vector<VisiblePoint> visible_;
   // In metres. The map frame is the frame of the first camera.
   CameraPose world_from_map_;

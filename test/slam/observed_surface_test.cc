@@ -216,5 +216,42 @@ TEST(ObservedSurface, CoversPicturesThatCellsDoNotDivide) {
   EXPECT_LT((camera.Project(surface.patch(5, 2).point) - Eigen::Vector2d(16.0, 7.0)).norm(), 1e-12);
 }
 
+// The spread of the normals is measured, not computed by the formula that is tested.
+TEST(ObservedSurface, RadiusForNoiseMakesSlopesAsCertainAsAskedFor) {
+  constexpr double kDepth = 0.2;
+  constexpr double kNoise = 0.0008;
+  DepthImage depth(160, 120, 0.0F);
+  Random random(7);
+  for (float& z : depth.pixels()) z = static_cast<float>(kDepth + kNoise * random.Gaussian());
+  const auto slope_deviation = [&depth](int radius) {
+    ObservedSurfaceOptions options;
+    options.radius = radius;
+    const ObservedSurface surface(depth, SmallCamera(), 1.0, options);
+    double squares = 0.0;
+    for (int j = 10; j < 50; ++j) {
+      for (int i = 10; i < 70; ++i) {
+        const Eigen::Vector3d& n = surface.patch(i, j).normal;
+        squares += n.head<2>().squaredNorm() / (n.z() * n.z()) / 2.0;
+      }
+    }
+    return std::sqrt(squares / (40.0 * 60.0));
+  };
+  for (const double asked : {0.05, 0.02, 0.01}) {
+    ObservedSurfaceOptions options;
+    options.max_slope_noise = asked;
+    const int radius = ObservedSurface(depth, SmallCamera(), 1.0, options).RadiusForNoise();
+    // The sample of correlated windows has a spread of its own.
+    EXPECT_LT(slope_deviation(radius), 1.15 * asked) << radius;
+    if (radius > ObservedSurfaceOptions().radius) {
+      EXPECT_GT(slope_deviation(radius - 1), 0.85 * asked) << radius;
+    }
+  }
+}
+
+TEST(ObservedSurface, KeepsItsRadiusWhereThereIsNoNoise) {
+  const ObservedSurface surface = Observe(RenderDepth(SmallCamera(), TiltedPlane(0.3, 30.0, 90.0)));
+  EXPECT_EQ(surface.RadiusForNoise(), ObservedSurfaceOptions().radius);
+}
+
 }  // namespace
 }  // namespace ceres_ed

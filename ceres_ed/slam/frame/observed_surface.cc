@@ -20,6 +20,17 @@ constexpr double kMinCoverage = 0.4;
 // neighbours have most of their pixels in common.
 constexpr int kNoiseSamples = 20000;
 
+// A larger radius would smooth away the shape.
+constexpr int kLargestRadius = 12;
+
+// Returns the deviation of the slope of a plane from noise of deviation 1 pixel distance. The slope
+// of a plane through the n = (2 r + 1)^2 pixels of a window has the deviation
+// noise / sqrt(n r (r + 1) / 3) per pixel.
+double SlopeNoise(int radius) {
+  const double r = radius;
+  return 1.0 / ((2.0 * r + 1.0) * std::sqrt(r * (r + 1.0) / 3.0));
+}
+
 // Returns the median deviation of every `step`-th valid patch; 0 if there is none.
 double MedianOfDeviations(const std::vector<SurfacePatch>& patches, int step) {
   std::vector<double> deviations;
@@ -127,6 +138,7 @@ ObservedSurface::ObservedSurface(DepthView depth,
                                  double scale,
                                  const ObservedSurfaceOptions& options)
     : camera_(camera),
+      options_(options),
       cell_(options.cell),
       patches_((depth.width() + options.cell - 1) / options.cell,
                (depth.height() + options.cell - 1) / options.cell) {
@@ -147,14 +159,19 @@ ObservedSurface::ObservedSurface(DepthView depth,
   const std::vector<SurfacePatch>& patches = patches_.pixels();
   num_valid_ = static_cast<int>(std::count_if(patches.begin(), patches.end(), is_valid));
   noise_ = MedianOfDeviations(patches, 1 + num_valid_ / kNoiseSamples);
-  // The slope of a plane through the n = (2 r + 1)^2 pixels of a window, which are z / f apart, has
-  // the deviation noise / (z / f sqrt(n r (r + 1) / 3)).
-  const double r = options.radius;
-  const double pixels = (2.0 * r + 1.0) * std::sqrt(r * (r + 1.0) / 3.0);
   median_depth_ = MedianDepth(patches);
+  // Two pixels are z / f apart.
   if (median_depth_ > 0.0) {
-    slope_noise_ = noise_ * std::min(camera.fx, camera.fy) / (median_depth_ * pixels);
+    slope_noise_ =
+        noise_ * std::min(camera.fx, camera.fy) / median_depth_ * SlopeNoise(options.radius);
   }
+}
+
+int ObservedSurface::RadiusForNoise() const {
+  const double noise = slope_noise_ / SlopeNoise(options_.radius);
+  int radius = options_.radius;
+  while (radius < kLargestRadius && noise * SlopeNoise(radius) > options_.max_slope_noise) ++radius;
+  return radius;
 }
 
 }  // namespace ceres_ed

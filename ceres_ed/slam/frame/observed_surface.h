@@ -50,6 +50,10 @@ class ObservedSurface {
   // of the angle of its normal.
   double slope_noise() const { return slope_noise_; }
 
+  // Returns the least radius, in [`radius` of the options, 12] pixels, with which the slopes of the
+  // patches would be as certain as `max_slope_noise` asks for.
+  int RadiusForNoise() const;
+
   const SurfacePatch& patch(int i, int j) const { return patches_(i, j); }
   // Returns the patch nearest to a pixel, or null if there is none or the pixel is outside the
   // picture.
@@ -67,6 +71,7 @@ class ObservedSurface {
 
  private:
   PinholeCamera camera_;
+  ObservedSurfaceOptions options_;
   int cell_;
   int num_valid_ = 0;
   double noise_ = 0.0;
