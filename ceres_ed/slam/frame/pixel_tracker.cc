@@ -3,7 +3,9 @@
 #include <ceres_ed/slam/checkpoint.h>
 #include <ceres_ed/util/parallel.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <utility>
 
@@ -44,6 +46,36 @@ cv::Mat Flatten(const cv::Mat& rgb, double radius) {
   cv::divide(log, deviation + kLeastContrast, log, kGain);
   log.convertTo(flat, CV_8U, 1.0, 128.0);
   return flat;
+}
+
+// Returns the indices of `count` of the corners, which are sorted by their strength, so that they
+// cover the picture: the best corner of each cell of a grid comes before the second best of any.
+// Corners that are `taken` are counted as better.
+std::vector<std::size_t> SpreadOut(const std::vector<cv::Point2f>& corners,
+                                   const std::vector<cv::Point2f>& taken,
+                                   const cv::Size& size,
+                                   int count) {
+  constexpr int kCornersPerCell = 4;
+  const double all = static_cast<double>(taken.size()) + count;
+  const double side = std::max(1.0, std::sqrt(kCornersPerCell * size.area() / all));
+  const int columns = static_cast<int>(size.width / side) + 1;
+  const int rows = static_cast<int>(size.height / side) + 1;
+  std::vector<int> ranks(static_cast<std::size_t>(columns) * rows, 0);
+  const auto rank = [&](const cv::Point2f& p) {
+    const int i = std::clamp(static_cast<int>(p.x / side), 0, columns - 1);
+    const int j = std::clamp(static_cast<int>(p.y / side), 0, rows - 1);
+    return ranks[static_cast<std::size_t>(j) * columns + i]++;
+  };
+  for (const cv::Point2f& p : taken) rank(p);
+  std::vector<std::pair<int, std::size_t>> order;
+  order.reserve(corners.size());
+  for (std::size_t k = 0; k < corners.size(); ++k) order.emplace_back(rank(corners[k]), k);
+  std::sort(order.begin(), order.end());
+  order.resize(std::min<std::size_t>(order.size(), count));
+  std::vector<std::size_t> chosen;
+  chosen.reserve(order.size());
+  for (const auto& [unused, k] : order) chosen.push_back(k);
+  return chosen;
 }
 
 }  // namespace
@@ -173,10 +205,17 @@ std::vector<Eigen::Vector2d> PixelTracker::Detect(const MaskImage& allowed,
   for (const cv::Point2f& p : ToCv(taken)) {
     cv::circle(mask, cv::Point(cvRound(p.x), cvRound(p.y)), radius, cv::Scalar(0), cv::FILLED);
   }
+  // All corners, the strongest first.
   std::vector<cv::Point2f> found;
-  cv::goodFeaturesToTrack(
-      impl_->gray, found, count, impl_->options.quality, impl_->options.min_distance, mask);
-  for (const cv::Point2f& p : found) corners.emplace_back(p.x, p.y);
+  cv::goodFeaturesToTrack(impl_->gray,
+                          found,
+                          /*maxCorners=*/0,
+                          impl_->options.quality,
+                          impl_->options.min_distance,
+                          mask);
+  for (const std::size_t k : SpreadOut(found, ToCv(taken), mask.size(), count)) {
+    corners.emplace_back(found[k].x, found[k].y);
+  }
   return corners;
 }
 
