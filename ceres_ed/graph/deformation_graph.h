@@ -53,6 +53,9 @@ class DeformationGraph {
     return index;
   }
 
+  // Sets the weight of an edge, >= 0.
+  void SetEdgeWeight(int edge, double weight) { edges_[edge].weight = weight; }
+
   // The memory on the heap, in bytes: of the node positions, and of the edges with the lists of
   // incident edges.
   std::size_t NodeHeapBytes() const { return HeapBytesOf(positions_); }

@@ -40,6 +40,12 @@ const OptionTable<LevelsOptions>& LevelsOptions::Rows() {
       Row(&O::regularization_weight, "w_reg", "The weight of E_reg, which makes neighbours agree.")
           .In(AtLeast(0))
           .Main(),
+      Row(&O::yield_strain,
+          "yield_strain",
+          "Edges with more strain give way, as where a fold is pulled over what is behind it.")
+          .In(AtLeast(0))
+          .Unit("node spacings")
+          .Special(0, "never"),
       Row(&O::node_prior_weight,
           "w_node_prior",
           "The weight that holds hidden nodes where they are thought to be.")

@@ -68,6 +68,9 @@ struct LevelsOptions {
   // data are counted per PR node, so that a weight has the same meaning at any scale and density.
   double rotation_weight = 0.1;
   double regularization_weight = 0.1;
+  // The strain at which the edges of E_reg give way (UpdateEdgeWeights); map units, >= 0, default
+  // 0.15. With 0 they never do.
+  double yield_strain = 0.15;
   // The weight of the expected node positions, which holds nodes that are not seen.
   double node_prior_weight = 0.02;
   double plane_weight = 1.0;

@@ -1,6 +1,7 @@
 // The changes of the map in a frame after the camera has been found: Level I and II, fusion,
 // growth.
 #include <ceres_ed/slam/frame/association.h>
+#include <ceres_ed/slam/levels/edge_weights.h>
 #include <ceres_ed/slam/tracker.h>
 #include <ceres_ed/util/statistics.h>
 #include <ceres_ed/util/timer.h>
@@ -153,6 +154,10 @@ void Tracker::FollowHidden(bool catch_up, FrameReport* report) {
 // Level I and II.
 void Tracker::Deform(const ObservedSurface& surface, bool catch_up, FrameReport* report) {
   memory_.BeginFrame(levels_->point_relevant(), &map_);
+  // The weights stay the same for all solves of the frame.
+  if (options_.levels.yield_strain > 0.0) {
+    UpdateEdgeWeights(levels_->point_relevant().nodes(), options_.levels.yield_strain, &map_);
+  }
   levels_->BeginFrame();
   const FrameObservations observations = FollowSeen(surface, report);
   FollowHidden(catch_up, report);

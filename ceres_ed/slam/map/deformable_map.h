@@ -63,6 +63,8 @@ class DeformableMap {
               const Eigen::Matrix3d& affine);
   // Adds an edge of weight 1 in each direction.
   void Connect(int a, int b);
+  // Sets the weight of an edge, >= 0.
+  void SetEdgeWeight(int edge, double weight) { graph_.SetEdgeWeight(edge, weight); }
   // Sets A_j and t_j of an existing node, in the layout of node_parameters.h.
   void SetNode(int node, const double* parameters);
 
