@@ -1,6 +1,7 @@
 // The data that each class of the tracking loop saves.
 #include <ceres_ed/slam/checkpoint.h>
 #include <ceres_ed/slam/frame/feature_points.h>
+#include <ceres_ed/slam/frame/foreground.h>
 #include <ceres_ed/slam/levels/levels.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/map/tissue_memory.h>
@@ -197,6 +198,28 @@ void TissueMemory::Exchange(CheckpointArchive* archive) {
   }
 }
 
+void Foreground::Exchange(CheckpointArchive* archive) {
+  archive->Enter("foreground");
+  // The intrinsics are those of the tracker.
+  int width = cells_.width();
+  int height = cells_.height();
+  archive->Value("width", &width);
+  archive->Value("height", &height);
+  archive->Value("cell", &cell_);
+  ExchangePose("camera_from_map", &camera_from_map_, archive);
+  if (!archive->saving()) {
+    const bool is_valid = width >= 0 && height >= 0 && cell_ >= 1 &&
+                          (width - 1) * cell_ < camera_.width &&
+                          (height - 1) * cell_ < camera_.height;
+    cells_ = is_valid ? Image<Cell>(width, height) : Image<Cell>();
+  }
+  std::vector<Cell>& cells = cells_.pixels();
+  archive->Column("place", &cells, [](Cell& c) -> Eigen::Vector3d& { return c.place; });
+  archive->Column("now", &cells, [](Cell& c) -> Eigen::Vector3d& { return c.now; });
+  archive->Column("age", &cells, [](Cell& c) -> int& { return c.age; });
+  archive->Leave();
+}
+
 void Tracker::Exchange(CheckpointArchive* archive) {
   archive->Enter("slam");
   archive->Value("unit", &unit_);
@@ -211,6 +234,7 @@ void Tracker::Exchange(CheckpointArchive* archive) {
   archive->Value("nodes_before_growth", &nodes_before_growth_);
   map_.Exchange(archive);
   features_.Exchange(archive);
+  foreground_.Exchange(archive);
   memory_.Exchange(archive);
   levels_->Exchange(archive);
   archive->Leave();

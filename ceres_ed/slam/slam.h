@@ -38,6 +38,9 @@ class DeformableSlam {
   virtual double unit() const = 0;
   // Returns the camera pose after the last frame, in map units.
   virtual const CameraPose& camera_from_map() const = 0;
+  // Returns the pixels of the last frame in which something else, such as a tool, stands before the
+  // tissue: they are 1, and were not used. All others are 0.
+  virtual MaskImage ForegroundMask() const = 0;
   // Returns the memory of the map and of the data that are kept of its nodes for the next frames.
   virtual MapMemory Memory() const = 0;
   // Returns whether the last tracked frame had data on a node, or has added the node.

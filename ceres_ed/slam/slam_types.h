@@ -107,6 +107,8 @@ struct FrameReport {
   int weak_directions = 0;
   // The share of the points in view that were seen in too few frames to be certain.
   double tentative = 0.0;
+  // The share of the observed surface that stands before the tissue, such as a tool.
+  double foreground = 0.0;
   // The root mean square distance of the inliers from their planes, in metres.
   double rms_plane = 0.0;
   // The energy of Level I, without unit.

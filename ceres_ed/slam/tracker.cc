@@ -83,6 +83,7 @@ Tracker::Tracker(const PinholeCamera& camera, const SlamOptions& options)
       options_(WithSharedSettings(options)),
       map_(options_.neighbors),
       features_(options_.feature),
+      foreground_(camera),
       memory_(options_.memory) {}
 
 Status Tracker::AddLevels(const EnergyRegistry& registry) {
@@ -114,7 +115,7 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
   const bool first = unit_ == 0.0;
   if (first) Initialize(frame);
   if (unit_ == 0.0) return report;
-  const ObservedSurface surface = Smooth(frame.depth, 1.0 / unit_, surface_radius_);
+  ObservedSurface surface = Smooth(frame.depth, 1.0 / unit_, surface_radius_);
   report.times.observe = timer.Seconds();
   if (surface.num_valid() == 0) {
     gap_ = true;
@@ -123,7 +124,9 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
 
   if (first) {
     report.status = FrameStatus::kInitialized;
+    RemoveForeground(&surface, &report);
   } else if (FindCamera(frame, surface, &report) && proving_ == 0) {
+    RemoveForeground(&surface, &report);
     FollowTissue(surface, frame.catch_up, &report);
   }
   gap_ = report.status == FrameStatus::kLost;
@@ -169,6 +172,13 @@ CameraPose Tracker::Predict(const SlamFrame& frame) const {
   CameraPose pose = frame.world_from_camera->Inverse() * world_from_map_;
   pose.translation /= unit_;
   return pose;
+}
+
+// Removes from the surface what stands before the tissue.
+void Tracker::RemoveForeground(ObservedSurface* surface, FrameReport* report) {
+  const Timer timer;
+  report->foreground = foreground_.Remove(visible_, map_.state().camera_from_map, surface);
+  report->times.associate += timer.Seconds();
 }
 
 // Nodes that come into view are brought up to date before they are used.

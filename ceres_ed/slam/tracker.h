@@ -8,6 +8,7 @@
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/slam/frame/camera_tracker.h>
 #include <ceres_ed/slam/frame/feature_points.h>
+#include <ceres_ed/slam/frame/foreground.h>
 #include <ceres_ed/slam/frame/map_growth.h>
 #include <ceres_ed/slam/frame/observed_surface.h>
 #include <ceres_ed/slam/frame/visibility.h>
@@ -40,6 +41,7 @@ class Tracker final : public DeformableSlam {
   const DeformableMap& map() const override { return map_; }
   double unit() const override { return unit_; }
   const CameraPose& camera_from_map() const override { return map_.state().camera_from_map; }
+  MaskImage ForegroundMask() const override { return foreground_.Mask(); }
   MapMemory Memory() const override;
   bool HasData(int node) const override {
     return levels_->point_relevant().Has(node) || node >= nodes_before_growth_;
@@ -71,6 +73,7 @@ class Tracker final : public DeformableSlam {
   FrameObservations FollowSeen(const ObservedSurface& surface, FrameReport* report);
   void FollowHidden(bool catch_up, FrameReport* report);
   void Deform(const ObservedSurface& surface, bool catch_up, FrameReport* report);
+  void RemoveForeground(ObservedSurface* surface, FrameReport* report);
   void FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report);
   void NoteRecalled();
   void NoteNewNodes();
@@ -91,6 +94,7 @@ class Tracker final : public DeformableSlam {
   std::unique_ptr<BatchReference> batch_;
   DeformableMap map_;
   FeaturePoints features_;
+  Foreground foreground_;
   TissueMemory memory_;
   double unit_ = 0.0;
   // The radius in pixels of the patches of a frame, which depends on the noise of the first frame.

@@ -15,7 +15,7 @@ namespace ceres_ed {
 // order. Units are seconds, metres and counts. t_total is the time of the whole frame without
 // t_load (reading and decoding, except for the part that was done during the previous frame) and
 // t_write. NaN, which is an empty cell, means that a value is not known for this frame.
-inline constexpr std::array<const char*, 34> kFrameColumns = {
+inline constexpr std::array<const char*, 35> kFrameColumns = {
     "t_total",         "t_load",
     "t_associate",     "t_camera",
     "t_level1",        "t_level2",
@@ -32,7 +32,8 @@ inline constexpr std::array<const char*, 34> kFrameColumns = {
     "verify_node_max", "verify_camera_deg",
     "verify_camera_m", "t_verify",
     "explained",       "overlap",
-    "weak_directions", "tentative"};
+    "weak_directions", "tentative",
+    "foreground"};
 
 // One row.
 struct FrameRecord {

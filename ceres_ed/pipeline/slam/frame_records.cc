@@ -64,6 +64,7 @@ FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& sla
   record["overlap"] = report.overlap;
   record["weak_directions"] = report.weak_directions;
   record["tentative"] = report.tentative;
+  record["foreground"] = report.foreground;
   return record;
 }
 

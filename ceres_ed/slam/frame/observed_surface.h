@@ -55,6 +55,11 @@ class ObservedSurface {
   int RadiusForNoise() const;
 
   const SurfacePatch& patch(int i, int j) const { return patches_(i, j); }
+  // Removes a valid patch, which does not belong to the tissue.
+  void Remove(int i, int j) {
+    patches_(i, j).normal.setZero();
+    --num_valid_;
+  }
   // Returns the patch nearest to a pixel, or null if there is none or the pixel is outside the
   // picture.
   const SurfacePatch* Find(const Eigen::Vector2d& pixel) const {
