@@ -37,6 +37,11 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           .In(AtLeast(0))
           .Special(0, "none")
           .File(),
+      Row(&S::write_masks,
+          "write_masks",
+          "Write for each frame in masks/ which pixels are tissue (255), and where a tool or "
+          "nothing was seen (0).")
+          .File(),
       Row(&S::checkpoint_every,
           "checkpoint_every",
           "The number of frames between checkpoints; without any, the map and the report are "

@@ -144,4 +144,13 @@ Status WriteColorImage(const std::string& path, const ColorImage& color) {
   return Encode(path, image);
 }
 
+Status WriteMaskImage(const std::string& path, const MaskImage& mask) {
+  cv::Mat image(mask.height(), mask.width(), CV_8UC1);
+  for (int v = 0; v < image.rows; ++v) {
+    std::uint8_t* row = image.ptr<std::uint8_t>(v);
+    for (int u = 0; u < image.cols; ++u) row[u] = mask(u, v) != 0 ? 255 : 0;
+  }
+  return Encode(path, image);
+}
+
 }  // namespace ceres_ed

@@ -25,11 +25,13 @@ StatusOr<ColorImage> ReadColorImage(const std::string& path);
 // Reads a mask: a pixel is nonzero if any channel is. Errors are as above.
 StatusOr<MaskImage> ReadMaskImage(const std::string& path);
 
-// The following two functions write a PNG under a temporary name and then rename it. Depth is
+// The following three functions write a PNG under a temporary name and then rename it. Depth is
 // rounded to the nearest unit. A depth that is not finite, not positive or too large (65534 units)
 // is written as 0.
 Status WriteDepthImage(const std::string& path, const DepthImage& depth, double units_per_metre);
 Status WriteColorImage(const std::string& path, const ColorImage& color);
+// As above; a pixel that is not 0 is written as 255.
+Status WriteMaskImage(const std::string& path, const MaskImage& mask);
 
 }  // namespace ceres_ed
 

@@ -27,6 +27,10 @@ Status WriteDepthImage(const std::string& path,
   return NoPictures(path);
 }
 
+Status WriteMaskImage(const std::string& path, const MaskImage& /*mask*/) {
+  return NoPictures(path);
+}
+
 Status WriteColorImage(const std::string& path, const ColorImage& /*color*/) {
   return NoPictures(path);
 }

@@ -35,11 +35,9 @@ const OptionTable<LevelsOptions>& LevelsOptions::Rows() {
       Row(&O::rotation_weight,
           "w_rot",
           "The weight of E_rot, which keeps each node near a rotation.")
-          .In(AtLeast(0))
-          .Main(),
+          .In(AtLeast(0)),
       Row(&O::regularization_weight, "w_reg", "The weight of E_reg, which makes neighbours agree.")
-          .In(AtLeast(0))
-          .Main(),
+          .In(AtLeast(0)),
       Row(&O::yield_strain,
           "yield_strain",
           "Edges with more strain give way, as where a fold is pulled over what is behind it.")

@@ -1,5 +1,6 @@
 // ed_slam on a sequence of six small frames: what it writes.
 #include <ceres_ed/io/camera_io.h>
+#include <ceres_ed/io/image_io.h>
 
 #include <cmath>
 
@@ -72,6 +73,21 @@ TEST_F(EdSlamOutputTest, ClearsAwayWhatAnEarlierRunHasLeft) {
   EXPECT_TRUE(Exists("out/notes.txt"));
   EXPECT_TRUE(Exists("out/live/other.ply"));
   EXPECT_EQ(Statuses().size(), 3u);
+}
+
+TEST_F(EdSlamOutputTest, WritesMasksOnRequest) {
+  ASSERT_EQ(Run("out", {"--last=1", "--write_masks"}).exit_code, 0);
+  const auto depth = ReadDepthImage(dir_ / ("seq/depth/" + FrameName(1, "png")), 1.0);
+  ASSERT_TRUE(depth.ok()) << depth.status().message();
+  const auto mask = ReadMaskImage(dir_ / ("out/masks/" + FrameName(1, "png")));
+  ASSERT_TRUE(mask.ok()) << mask.status().message();
+  // There is no tool before this sheet.
+  ASSERT_EQ(mask->pixels().size(), depth->pixels().size());
+  for (std::size_t i = 0; i < mask->pixels().size(); ++i) {
+    ASSERT_EQ(mask->pixels()[i] != 0, depth->pixels()[i] > 0.0F) << i;
+  }
+  ASSERT_EQ(Run("out", {"--last=0", "--overwrite"}).exit_code, 0);
+  EXPECT_FALSE(Exists("out/masks/" + FrameName(1, "png")));
 }
 
 TEST_F(EdSlamOutputTest, KeepsAFinishedResultUnlessToldToReplaceIt) {

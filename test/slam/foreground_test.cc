@@ -30,7 +30,7 @@ double MaskAgreement(const LayerScene& scene, int frame, const MaskImage& mask) 
 }
 
 // Expects that no point of the map was born on the layer, and that those of the wall have not moved
-// by more than 0.5 mm.
+// by more than a tenth of a node spacing.
 void ExpectOnlyTheWall(const LayerScene& scene, const DeformableSlam& slam) {
   const DeformableMap& map = slam.map();
   int on_layer = 0;
@@ -46,7 +46,7 @@ void ExpectOnlyTheWall(const LayerScene& scene, const DeformableSlam& slam) {
     moved = std::max(moved, (now - born).norm());
   }
   EXPECT_EQ(on_layer, 0);
-  EXPECT_LT(moved, 0.0005);
+  EXPECT_LT(moved, 0.1 * slam.unit());
 }
 
 SlamOptions StillCamera() {

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/graph_io.h>
+#include <ceres_ed/io/image_io.h>
 #include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/io/results/tracks_csv.h>
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <system_error>
 #include <utility>
@@ -26,6 +28,7 @@ namespace fs = std::filesystem;
 constexpr char kFrames[] = "frames.csv";
 constexpr char kTrajectory[] = "trajectory.txt";
 constexpr char kTracks[] = "tracks.csv";
+constexpr char kMasks[] = "masks";
 constexpr char kMap[] = "map.ply";
 constexpr char kGraph[] = "graph.ply";
 
@@ -41,6 +44,13 @@ bool IsResultName(const std::string& name) {
     if (name == known) return true;
   }
   return false;
+}
+
+// Returns whether this is the name of a mask, or what a killed run has left of one.
+bool IsMaskName(const std::string& name) {
+  const std::string end = WithoutTemporaryEnd(name);
+  return end.size() >= 10 && end.compare(end.size() - 4, 4, ".png") == 0 &&
+         end.find_first_not_of("0123456789") == end.size() - 4;
 }
 
 // Removes the files in a folder for whose names `goes` returns true.
@@ -65,6 +75,8 @@ void RemoveLeftOvers(const std::string& directory, bool results_too) {
   RemoveFiles(directory, [&](const std::string& name) {
     return goes(name) && IsResultName(WithoutTemporaryEnd(name));
   });
+  RemoveFiles(directory + "/" + kMasks,
+              [&](const std::string& name) { return goes(name) && IsMaskName(name); });
   RemoveFiles(directory + "/live", [&](const std::string& name) {
     return goes(name) && IsLiveCloudName(WithoutTemporaryEnd(name));
   });
@@ -173,6 +185,10 @@ Status SlamOutput::WriteFrame(const FrameRecord& record,
     Status status = WriteLiveCloud(path, ExportLivePoints(slam));
     if (!status.ok()) return status;
   }
+  if (options.mask != nullptr) {
+    Status status = WriteMask(record.number, *options.mask);
+    if (!status.ok()) return status;
+  }
   if (options.tracked != nullptr) {
     Status status = WriteTracks(record.number, slam, *options.tracked);
     if (!status.ok()) return status;
@@ -182,6 +198,14 @@ Status SlamOutput::WriteFrame(const FrameRecord& record,
 
 Status SlamOutput::WriteRecord(const FrameRecord& record) {
   return frames_.Append(FramesRow(record));
+}
+
+Status SlamOutput::WriteMask(int frame, const MaskImage& mask) const {
+  std::error_code error;
+  fs::create_directory(Path(kMasks), error);
+  char name[32];
+  std::snprintf(name, sizeof(name), "/%06d.png", frame);
+  return WriteMaskImage(Path(kMasks) + name, mask);
 }
 
 Status SlamOutput::WriteTracks(int frame,

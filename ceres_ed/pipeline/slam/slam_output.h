@@ -2,6 +2,7 @@
 #ifndef CERES_ED_PIPELINE_SLAM_SLAM_OUTPUT_H_
 #define CERES_ED_PIPELINE_SLAM_SLAM_OUTPUT_H_
 
+#include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/io/append_file.h>
 #include <ceres_ed/pipeline/slam/frame_records.h>
@@ -24,6 +25,8 @@ struct FrameOutput {
   double time_s = 0.0;
   // Whether a live cloud is written.
   bool live = true;
+  // The pixels that show tissue; null if they are not written.
+  const MaskImage* mask = nullptr;
   // The points that are followed; null if there are none.
   const TrackedPoints* tracked = nullptr;
 };
@@ -49,8 +52,8 @@ class SlamOutput {
                                                       const PinholeCamera& camera,
                                                       CheckpointArchive* archive);
 
-  // Writes the live cloud, the rows of tracks.csv and the row of trajectory.txt for a frame, or
-  // nothing if its camera is not known. WriteRecord() writes the row of frames.csv.
+  // Writes the live cloud, the mask, the rows of tracks.csv and the row of trajectory.txt for a
+  // frame, or nothing if its camera is not known. WriteRecord() writes the row of frames.csv.
   Status WriteFrame(const FrameRecord& record,
                     const DeformableSlam& slam,
                     const FrameOutput& options);
@@ -73,6 +76,7 @@ class SlamOutput {
   SlamOutput(const std::string& directory, const PinholeCamera& camera)
       : directory_(directory), camera_(camera) {}
 
+  Status WriteMask(int frame, const MaskImage& mask) const;
   Status WriteTracks(int frame, const DeformableSlam& slam, const TrackedPoints& tracked);
 
   std::string directory_;

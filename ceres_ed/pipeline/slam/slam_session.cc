@@ -9,6 +9,7 @@
 #include <ceres_ed/util/text.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -39,6 +40,16 @@ std::string FirstDifference(const std::string& now, const std::string& before) {
     b.clear();
   }
   return "fewer flags, expected the same";
+}
+
+// Returns the pixels with a depth that is not that of a tool: they are 1, all others 0.
+MaskImage TissueMask(const DepthImage& depth, const DeformableSlam& slam) {
+  MaskImage mask = slam.ForegroundMask();
+  if (mask.empty()) mask = MaskImage(depth.width(), depth.height(), 0);
+  for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
+    mask.pixels()[i] = mask.pixels()[i] == 0 && depth.pixels()[i] > 0.0F ? 1 : 0;
+  }
+  return mask;
 }
 
 }  // namespace
@@ -165,6 +176,8 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   FrameOutput options;
   options.time_s = sequence_.time_s(index);
   options.live = live;
+  const MaskImage mask = settings_.write_masks ? TissueMask(frame.depth, *slam_) : MaskImage();
+  options.mask = settings_.write_masks ? &mask : nullptr;
   options.tracked = tracked_.size() > 0 ? &tracked_ : nullptr;
   const Status status = output_->WriteFrame(*record, *slam_, options);
   (*record)["t_write"] = timer.Seconds();

@@ -26,6 +26,8 @@ struct SlamSettings {
   // A live cloud is written every `live_every` frames, and a checkpoint every `checkpoint_every`
   // frames; 0 = never.
   int live_every = 1;
+  // Whether a mask of the tissue is written for each frame.
+  bool write_masks = false;
   int checkpoint_every = 10;
   // Whether the run continues from the checkpoint in `output`, if there is one.
   bool resume = false;
