@@ -131,11 +131,16 @@ std::string TrackText(const TrackEvaluation& tracks) {
            tracks.late) +
       Line("%d lost by the map in some frame)\n", tracks.lost);
   if (!tracks.error) return text;
-  return text + Line("  error median %.2f px, mean %.2f, p95 %.2f, max %.2f\n",
-                     tracks.error->p50,
-                     tracks.error->mean,
-                     tracks.error->p95,
-                     tracks.error->max);
+  text += Line("  error median %.2f px, mean %.2f, p95 %.2f, max %.2f\n",
+               tracks.error->p50,
+               tracks.error->mean,
+               tracks.error->p95,
+               tracks.error->max);
+  if (!tracks.moved_error) return text;
+  return text + Line("  %d moved far: error at their ends median %.2f px, max %.2f\n",
+                     tracks.moved,
+                     tracks.moved_error->p50,
+                     tracks.moved_error->max);
 }
 
 std::string LogText(const FrameLog& log) {

@@ -11,13 +11,15 @@ one (A B A B ...), so both meet the same state of the machine. One run follows a
   seen     tracking error: distance of a map point to the place of its tissue; mean of points in view
   worst    the largest of these means of a frame
   hidden   the same for points out of view or behind others
-  map      95th percentile of the distances of all map points to the true surface, last live cloud
+  map      99th percentile of the distances of all map points to the true surface, last live cloud
   camera   rms error of the camera's position (camera and tissue may exchange motion)
   px       median error of the given 2D tracks; tracks: followed / given
+  moved    median error at the ends of the tracks that move more than 50 pixels
   plane    rms distance of inliers to the planes of the depth image, median of the frames
   static   residual of a pair of frames in which nothing moves, for --static-residual: see below
   depth    |z - depth| at the pixel, median of a frame, mean of the frames; includes the sensor's noise
   ms, p95  time of a frame, t_total of frames.csv: without reading, decoding and writing
+  late     the time of a frame in the last quarter over that in the second
   cpu      CPU time of the whole program for a frame; for use on a machine that is busy
   observe ... grow   medians of the stages, ms
   MB       peak memory of ed_slam
@@ -59,11 +61,11 @@ TIMES = ("ms", "ms_p95", *(f"ms_{stage}" for stage in STAGES), "cpu", "wall_s", 
 COLUMNS = [
     ("sequence", "sequence", None), ("frames", "frames", 0), ("relocalized", "reloc", 0),
     ("lost", "lost", 0), ("skipped", "skipped", 0), ("surface_seen", "surface", 3),
-    ("tracking_seen", "seen", 3), ("seen_worst", "worst", 2), ("tracking_hidden", "hidden", 3), ("map_p95", "map", 2),
+    ("tracking_seen", "seen", 3), ("seen_worst", "worst", 2), ("tracking_hidden", "hidden", 3), ("map_p99", "map", 2),
     ("camera", "camera", 2),
-    ("track_px", "px", 2), ("tracks", "tracks", None), ("rms_plane", "plane", 3),
+    ("track_px", "px", 2), ("moved_px", "moved", 1), ("tracks", "tracks", None), ("rms_plane", "plane", 3),
     ("static", "static", 3), ("depth", "depth", 3), ("ms", "ms", 1), ("ms_p95", "p95", 1),
-    ("cpu", "cpu", 1), *((f"ms_{stage}", stage, 1) for stage in STAGES), ("memory_mb", "MB", 0),
+    ("late_ratio", "late", 2), ("cpu", "cpu", 1), *((f"ms_{stage}", stage, 1) for stage in STAGES), ("memory_mb", "MB", 0),
     ("nodes", "nodes", 0), ("pr", "pr", 0), ("active", "active", 0), ("points", "points", 0),
 ]
 RATIOS = ("surface_seen", "tracking_seen", "tracking_hidden", "camera", "track_px", "rms_plane",

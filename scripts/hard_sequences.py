@@ -14,6 +14,7 @@ SIZE = ["--width=320", "--height=240"]
 ORGANS = ("heart", "kidney", "stomach")
 # Two orbits. Live clouds show all of the map, which costs time: one in eight frames has one.
 ORBIT = ["--frames=640", *SIZE]
+LONG = ["--frames=2000", *SIZE]
 SHORT = ["--frames=120", *SIZE]
 SPARSE = ["--live_every=8"]
 # Tissue that moves there and back in more frames than there are stands still.
@@ -123,6 +124,7 @@ def hard_sequences(ed_simulate, cache, fresh=False):
                 scene, ORBIT, f"step{step}_{scene}", [f"--step={step}", "--last=209"])
         makers[f"jump_{scene}"] = lambda scene=scene: covered(
             scene, f"jump_{scene}", None, [k for k in range(120) if k not in JUMP])
+    makers["long_heart"] = lambda: organ("heart", LONG, "long_heart", SPARSE)
     for share in (45, 60):
         makers[f"cover{share}_heart"] = lambda share=share: covered(
             "heart", f"cover{share}_heart",

@@ -116,6 +116,9 @@ def times_of(frames):
         return {}
     total = [1e3 * row["t_total"] for row in rows]
     figures = {"ms": statistics.median(total), "ms_p95": percentile(total, 0.95)}
+    # Whether a frame takes longer when the recording gets long.
+    part = max(1, len(total) // 4)
+    figures["late_ratio"] = statistics.median(total[-part:]) / statistics.median(total[part:2 * part])
     for stage in STAGES:
         figures[f"ms_{stage}"] = statistics.median(1e3 * row[f"t_{stage}"] for row in rows)
     return figures
@@ -146,7 +149,7 @@ def errors_of(evaluation):
                 figures[name] = 1e3 * summary[figure][across]
         if summary["tracking_seen_mean"]:
             figures["seen_worst"] = 1e3 * summary["tracking_seen_mean"]["max"]
-        figures["map_p95"] = 1e3 * evaluation["truth"]["frames"][-1]["surface_all"]["p95"]
+        figures["map_p99"] = 1e3 * evaluation["truth"]["frames"][-1]["surface_all"]["p99"]
     if evaluation["camera"]:
         camera = evaluation["camera"]["from_first_frame"]
         figures["camera"] = 1e3 * camera["translation_rmse"]
@@ -156,6 +159,8 @@ def errors_of(evaluation):
     if tracks and tracks["error"]:
         figures.update(track_px=tracks["error"]["p50"],
                        tracks=f"{tracks['followed']}/{tracks['tracks']}")
+        if tracks["moved_error"]:
+            figures["moved_px"] = tracks["moved_error"]["p50"]
     return figures
 
 

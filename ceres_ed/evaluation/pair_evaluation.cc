@@ -39,6 +39,7 @@ DistanceStatistics Symmetric(const DistanceStatistics& a, const DistanceStatisti
   both.rms = std::sqrt(0.5 * (a.rms * a.rms + b.rms * b.rms));
   both.p50 = 0.5 * (a.p50 + b.p50);
   both.p95 = 0.5 * (a.p95 + b.p95);
+  both.p99 = 0.5 * (a.p99 + b.p99);
   both.max = std::max(a.max, b.max);
   both.trimmed = 0.5 * (a.trimmed + b.trimmed);
   return both;
@@ -172,8 +173,13 @@ Status CheckCounterpart(const std::string& name, const PointCloud& cloud, std::s
 DistanceStatistics DistanceStatistics::InPercentOf(double diagonal) const {
   const double scale = diagonal > 0.0 ? 100.0 / diagonal : 1.0;
   DistanceStatistics scaled = *this;
-  for (double* value :
-       {&scaled.mean, &scaled.rms, &scaled.p50, &scaled.p95, &scaled.max, &scaled.trimmed}) {
+  for (double* value : {&scaled.mean,
+                        &scaled.rms,
+                        &scaled.p50,
+                        &scaled.p95,
+                        &scaled.p99,
+                        &scaled.max,
+                        &scaled.trimmed}) {
     *value *= scale;
   }
   return scaled;
@@ -196,6 +202,7 @@ DistanceStatistics Summarize(std::vector<double> distances) {
   statistics.rms = std::sqrt(squares / static_cast<double>(distances.size()));
   statistics.p50 = Percentile(distances, 50.0);
   statistics.p95 = Percentile(distances, 95.0);
+  statistics.p99 = Percentile(distances, 99.0);
   statistics.max = distances.back();
   return statistics;
 }

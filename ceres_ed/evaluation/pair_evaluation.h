@@ -19,6 +19,7 @@ struct DistanceStatistics {
   double rms = 0.0;
   double p50 = 0.0;
   double p95 = 0.0;
+  double p99 = 0.0;
   double max = 0.0;
   // The mean of the smallest 80 %. It is not affected by a part that is missing in the other
   // surface.
@@ -52,8 +53,8 @@ struct Evaluation {
   // triangles).
   DistanceStatistics forward;
   DistanceStatistics backward;
-  // Both directions together. mean, p50, p95 and trimmed are the averages of both directions; rms
-  // is the root of the average of both mean squares; max is the larger maximum.
+  // Both directions together. mean, p50, p95, p99 and trimmed are the averages of both directions;
+  // rms is the root of the average of both mean squares; max is the larger maximum.
   DistanceStatistics symmetric;
   // Distances of vertices to the nearest vertex of the other cloud.
   DistanceStatistics nearest_forward;

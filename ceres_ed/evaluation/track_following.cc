@@ -81,6 +81,7 @@ void TrackFollower::Add(const LiveSnapshot& snapshot) {
       continue;
     }
     ++frame.tracks;
+    track.motion = std::max(track.motion, (observation.pixel - track.start).norm());
     Eigen::Vector2d displacement = Eigen::Vector2d::Zero();
     double weight = 0.0;
     for (const Tie& tie : track.ties) {
@@ -97,6 +98,7 @@ void TrackFollower::Add(const LiveSnapshot& snapshot) {
       continue;
     }
     errors.push_back((track.start + displacement / weight - observation.pixel).norm());
+    track.last_error = errors.back();
   }
   if (!errors.empty()) frame.error = Summarize(errors);
   errors_.insert(errors_.end(), errors.begin(), errors.end());
@@ -104,12 +106,17 @@ void TrackFollower::Add(const LiveSnapshot& snapshot) {
 
 TrackEvaluation TrackFollower::Evaluate() const {
   TrackEvaluation evaluation;
+  std::vector<double> moved;
   for (const auto& [number, track] : tracks_) {
     ++evaluation.tracks;
     if (!track.ties.empty()) ++evaluation.followed;
     if (track.late) ++evaluation.late;
     if (track.lost) ++evaluation.lost;
+    if (!(track.motion > options_.moved_distance)) continue;
+    ++evaluation.moved;
+    if (track.last_error) moved.push_back(*track.last_error);
   }
+  if (!moved.empty()) evaluation.moved_error = Summarize(std::move(moved));
   if (!errors_.empty()) evaluation.error = Summarize(errors_);
   evaluation.frames = frames_;
   return evaluation;

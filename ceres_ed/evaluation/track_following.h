@@ -23,6 +23,9 @@ struct TrackFollowingOptions {
   // The largest distance of these map points from the track in the picture, in pixels, > 0; default
   // 8.
   double max_distance = 8.0;
+  // Tracks that move farther than this from their start in the picture are also counted apart;
+  // pixels, > 0, default 50.
+  double moved_distance = 50.0;
   // The options of the visibility of map points.
   SequenceEvaluationOptions visibility;
 };
@@ -52,6 +55,10 @@ struct TrackEvaluation {
   // The errors over all tracks and frames, in pixels. The frame in which a track was attached is
   // left out, because the error is zero there. Nothing if no track was followed into another frame.
   std::optional<DistanceStatistics> error;
+  // The number of followed tracks that move far (moved_distance), and their errors in the last
+  // frames in which they are given: those of tissue that was pulled away.
+  int moved = 0;
+  std::optional<DistanceStatistics> moved_error;
   std::vector<TrackFrameError> frames;
 };
 
@@ -82,6 +89,9 @@ class TrackFollower {
     bool late = false;
     bool lost = false;
     Eigen::Vector2d start = Eigen::Vector2d::Zero();
+    // The farthest that the given track is from its start, and its last error.
+    double motion = 0.0;
+    std::optional<double> last_error;
     std::vector<Tie> ties;
   };
   // A visible map point.

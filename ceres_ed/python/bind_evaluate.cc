@@ -41,6 +41,7 @@ void BindStatistics(py::module_& module) {
       .def_readonly("rms", &S::rms)
       .def_readonly("p50", &S::p50, "The median.")
       .def_readonly("p95", &S::p95)
+      .def_readonly("p99", &S::p99)
       .def_readonly("max", &S::max)
       .def_readonly("trimmed", &S::trimmed, "The mean of the smallest 80 %.")
       .def("in_percent_of",

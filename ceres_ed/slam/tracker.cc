@@ -218,9 +218,8 @@ bool Tracker::FindCamera(const SlamFrame& frame,
   }
   CameraTrackerResult tracked =
       TrackCamera(visible_, matches, surface, predicted, CameraTrackerOptions());
-  if (!continuous && features_.num_known() >= kFewestCorners) {
-    FindCameraAnew(surface, &matches, &tracked);
-  }
+  const bool anew = !continuous && features_.num_known() >= kFewestCorners;
+  if (anew) FindCameraAnew(surface, &matches, &tracked);
   CameraPose found = tracked.camera_from_map;
   report->weak_directions = tracked.information.NumWeak();
   visible_ = FindVisible(map_, found, camera_, VisibilityOptions());
@@ -234,6 +233,8 @@ bool Tracker::FindCamera(const SlamFrame& frame,
     visible_.clear();
     return false;
   }
+  // The camera has jumped, and was found by a search.
+  if (anew && !smooth) report->status = FrameStatus::kRelocalized;
   camera_step_ = report->status == FrameStatus::kRelocalized
                      ? CameraPose()
                      : tracked.information.DeterminedPart(found * before.Inverse());

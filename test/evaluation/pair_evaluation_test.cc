@@ -62,6 +62,7 @@ TEST(Summarize, AgreesWithPaperAndPencil) {
   EXPECT_DOUBLE_EQ(s.rms, std::sqrt(11.0));
   EXPECT_DOUBLE_EQ(s.p50, 3.0);
   EXPECT_DOUBLE_EQ(s.p95, 4.8);
+  EXPECT_DOUBLE_EQ(s.p99, 4.96);
   EXPECT_DOUBLE_EQ(s.max, 5.0);
   EXPECT_DOUBLE_EQ(s.trimmed, 2.5);
   EXPECT_DOUBLE_EQ(s.InPercentOf(50.0).mean, 6.0);

@@ -55,6 +55,24 @@ TEST(TrackFollower, MeasuresAKnownOffsetInEveryFrameButTheFirst) {
   EXPECT_EQ(evaluation.frames[3].tracks, 5);
 }
 
+TEST(TrackFollower, CountsTheEndsOfTracksThatMoveFarApart) {
+  // The map moves by 2 pixels in a frame; one track by 3, the other stands still.
+  std::vector<TrackObservation> observations;
+  for (int frame = 0; frame < 11; ++frame) {
+    observations.push_back({frame, 0, {30.0 + 3.0 * frame, 47.0}});
+    observations.push_back({frame, 1, {60.0, 47.0}});
+  }
+  TrackFollowingOptions options;
+  options.moved_distance = 25.0;
+  TrackFollower follower(MakeCamera(), observations, options);
+  for (int frame = 0; frame < 11; ++frame) follower.Add(PlaneAt(frame, 2.0));
+  const TrackEvaluation evaluation = follower.Evaluate();
+  EXPECT_EQ(evaluation.moved, 1);
+  ASSERT_TRUE(evaluation.moved_error);
+  EXPECT_NEAR(evaluation.moved_error->max, 10.0, 1e-9);
+  EXPECT_NEAR(evaluation.error->max, 20.0, 1e-9);
+}
+
 TEST(TrackFollower, WeighsPointsByTheInverseOfTheirDistance) {
   // The track lies between two points, 1 pixel from one and 2 pixels from the other, and only the
   // second point moves.

@@ -12,6 +12,7 @@ ordered_json DistanceReport(const DistanceStatistics& distance, double diagonal)
           {"rms", distance.rms},
           {"p50", distance.p50},
           {"p95", distance.p95},
+          {"p99", distance.p99},
           {"max", distance.max},
           {"trimmed", distance.trimmed},
           {"mean_percent", distance.InPercentOf(diagonal).mean}};

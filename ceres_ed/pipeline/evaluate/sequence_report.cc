@@ -16,6 +16,7 @@ ordered_json StatisticsReport(const std::optional<DistanceStatistics>& distance)
           {"rms", distance->rms},
           {"p50", distance->p50},
           {"p95", distance->p95},
+          {"p99", distance->p99},
           {"max", distance->max}};
 }
 
@@ -93,6 +94,8 @@ ordered_json TracksReport(const TrackEvaluation& tracks) {
           {"late", tracks.late},
           {"lost", tracks.lost},
           {"error", StatisticsReport(tracks.error)},
+          {"moved", tracks.moved},
+          {"moved_error", StatisticsReport(tracks.moved_error)},
           {"frames", frames}};
 }
 
