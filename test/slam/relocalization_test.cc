@@ -35,6 +35,15 @@ CameraPose TurnedAway(const CameraPose& pose, double degrees, double distance) {
   return turned;
 }
 
+std::vector<Eigen::Vector3d> NodePositions(const DeformableSlam& slam) {
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(slam.map().graph().num_nodes());
+  for (int j = 0; j < slam.map().graph().num_nodes(); ++j) {
+    positions.push_back(slam.map().NodePosition(j));
+  }
+  return positions;
+}
+
 double MiddleDepth(const ObservedSurface& surface) {
   const SurfacePatch& patch = surface.patch(surface.width() / 2, surface.height() / 2);
   return patch.point.z();
@@ -92,6 +101,36 @@ TEST(Relocalization, TracksOnAfterAJump) {
   EXPECT_EQ(slam->Process(jumped).status, FrameStatus::kRelocalized);
   const double angle = slam->camera_from_map().rotation.angularDistance(before.rotation);
   EXPECT_NEAR(angle, M_PI, 5.0 * M_PI / 180.0);
+}
+
+// A pose that depth alone has found may be wrong. Until several frames agree with it nothing of the
+// map may change.
+TEST(Relocalization, LeavesTheMapAloneUntilThePoseHasProvedItself) {
+  const auto slam = MappedKidney();
+  const SlamFrame frame = KidneySequence().Frame(3);
+  DepthImage turned(frame.depth.width(), frame.depth.height());
+  for (int v = 0; v < turned.height(); ++v) {
+    for (int u = 0; u < turned.width(); ++u) {
+      turned(u, v) = frame.depth(turned.width() - 1 - u, turned.height() - 1 - v);
+    }
+  }
+  SlamFrame jumped = frame;
+  jumped.depth = &turned;
+  jumped.color = nullptr;
+  const std::vector<Eigen::Vector3d> before = NodePositions(*slam);
+  const int points = slam->map().num_points();
+  int proving = 0;
+  for (int k = 4; k < 12; ++k) {
+    jumped.number = k;
+    const FrameReport report = slam->Process(jumped);
+    EXPECT_EQ(report.status, k == 4 ? FrameStatus::kRelocalized : FrameStatus::kTracked) << k;
+    // A frame that changes the map has observations.
+    if (report.points > 0) break;
+    ++proving;
+    EXPECT_EQ(slam->map().num_points(), points);
+    EXPECT_EQ(NodePositions(*slam), before);
+  }
+  EXPECT_EQ(proving, 5);
 }
 
 TEST(Relocalization, SaysLostAndLeavesTheMapAlone) {

@@ -358,6 +358,34 @@ TEST(DeformableSlam, ForgetsWhatOneFrameAloneHasSeen) {
   EXPECT_EQ(floaters_now, 0);
 }
 
+// The camera goes along the strip and comes back, while the tissue breathes.
+TEST(DeformableSlam, FindsTheTissueOfTheFirstFrameWhereItWas) {
+  static const ShortSequence sequence(SyntheticSceneKind::kStrip, 20);
+  const auto slam = MakeSlam(sequence.camera, SlamOptions());
+  int points_there = 0;
+  for (int n = 0; n < 39; ++n) {
+    SlamFrame frame = sequence.Frame(n < 20 ? n : 38 - n);
+    frame.number = n;
+    EXPECT_EQ(slam->Process(frame).status,
+              n == 0 ? FrameStatus::kInitialized : FrameStatus::kTracked)
+        << n;
+    if (n == 19) points_there = slam->map().num_points();
+  }
+  // The last frame is the first one once more: what was born there is where it was, to 1 mm, and
+  // nothing was mapped a second time.
+  const LiveSnapshot now = Snapshot(*slam, 38);
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < now.size(); ++i) {
+    if (now.birth_frames[i] != 0) continue;
+    sum += (now.points[i] - now.birth_points[i]).norm();
+    ++count;
+  }
+  EXPECT_GT(count, 500);
+  EXPECT_LT(sum / std::max(1, count), 0.001);
+  EXPECT_LT(slam->map().num_points(), 1.05 * points_there);
+}
+
 // After frames without depth the camera is elsewhere, and corners tell where.
 TEST(DeformableSlam, FindsTheCameraAfterAGap) {
   constexpr int kGap = 8;
