@@ -101,41 +101,47 @@ void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
   }
 }
 
-void FeaturePoints::Exchange(CheckpointArchive* archive) {
-  archive->Enter("features");
-  tracker_.Exchange(archive);
-  ExchangeCount("count", &features_, archive);
-  for (Feature& f : features_) {
+void CornerStore::Exchange(CheckpointArchive* archive) {
+  archive->Enter("corners");
+  ExchangeCount("count", &corners_, archive);
+  for (Corner& f : corners_) {
     // Unused places get a fixed value, so that equal states give equal bytes.
     std::fill(f.nodes + f.num_nodes, f.nodes + kMaxBoundNodes, 0);
     std::fill(f.weights + f.num_nodes, f.weights + kMaxBoundNodes, 0.0);
   }
   archive->Column(
-      "pixel", &features_, [](Feature & f) -> auto& { return f.pixel; });
+      "pixel", &corners_, [](Corner & f) -> auto& { return f.pixel; });
   archive->Column(
-      "in_camera", &features_, [](Feature & f) -> auto& { return f.in_camera; });
+      "in_camera", &corners_, [](Corner & f) -> auto& { return f.in_camera; });
   archive->Column(
-      "at_rest", &features_, [](Feature & f) -> auto& { return f.at_rest; });
+      "at_rest", &corners_, [](Corner & f) -> auto& { return f.at_rest; });
   archive->Column(
-      "nodes", &features_, [](Feature & f) -> auto& { return f.nodes; });
+      "nodes", &corners_, [](Corner & f) -> auto& { return f.nodes; });
   archive->Column(
-      "weights", &features_, [](Feature & f) -> auto& { return f.weights; });
-  archive->Column("num_nodes", &features_, [](Feature& f) -> int& { return f.num_nodes; });
+      "weights", &corners_, [](Corner & f) -> auto& { return f.weights; });
+  archive->Column("num_nodes", &corners_, [](Corner& f) -> int& { return f.num_nodes; });
   archive->Column(
-      "rest_from_pixel", &features_, [](Feature & f) -> auto& { return f.rest_from_pixel; });
+      "rest_from_pixel", &corners_, [](Corner & f) -> auto& { return f.rest_from_pixel; });
   archive->Column(
-      "fine", &features_, [](Feature & f) -> auto& { return f.patch.levels[0]; });
+      "fine", &corners_, [](Corner & f) -> auto& { return f.patch.levels[0]; });
   archive->Column(
-      "coarse", &features_, [](Feature & f) -> auto& { return f.patch.levels[1]; });
+      "coarse", &corners_, [](Corner & f) -> auto& { return f.patch.levels[1]; });
   archive->Column(
-      "descriptor", &features_, [](Feature & f) -> auto& { return f.descriptor; });
-  archive->Column("misses", &features_, [](Feature& f) -> int& { return f.misses; });
-  archive->Column("birth", &features_, [](Feature& f) -> int& { return f.birth; });
+      "descriptor", &corners_, [](Corner & f) -> auto& { return f.descriptor; });
+  archive->Column("misses", &corners_, [](Corner& f) -> int& { return f.misses; });
+  archive->Column("birth", &corners_, [](Corner& f) -> int& { return f.birth; });
   archive->Array("followed", &followed_);
   archive->Value("births", &births_);
+  if (!archive->saving()) Index();
+  archive->Leave();
+}
+
+void FeaturePoints::Exchange(CheckpointArchive* archive) {
+  archive->Enter("features");
+  tracker_.Exchange(archive);
+  corners_.Exchange(archive);
   archive->Value("pictures", &frame_);
   archive->Value("continued", &num_continued_);
-  if (!archive->saving()) Index();
   archive->Leave();
 }
 

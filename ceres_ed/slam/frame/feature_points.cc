@@ -1,8 +1,9 @@
 #include "ceres_ed/slam/frame/feature_points.h"
 
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/slam/frame/corner_geometry.h>
+#include <ceres_ed/slam/frame/corner_weights.h>
 #include <ceres_ed/slam/frame/pose_from_matches.h>
-#include <ceres_ed/util/memory_use.h>
 #include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
@@ -36,96 +37,19 @@ constexpr double kMostReach = 12.0;
 // A corner is searched for on the observed surface if that is not farther away than this, in map
 // units.
 constexpr double kNearSurface = 1.5;
-// The least and the largest change of area between a template and the present picture.
-constexpr double kLeastArea = 0.25;
-constexpr double kMostArea = 4.0;
-// A corner is compared with so many neighbours, up to this distance (map units); the weight where
-// there are fewer than the fewest; and the difference of the motions at which the weight is zero:
-// in map units, and relative to the motion.
-constexpr std::size_t kWeighingNeighbors = 8;
-constexpr double kWeighingDistance = 4.0;
-constexpr std::size_t kFewestNeighbors = 3;
-constexpr double kLonelyWeight = 0.3;
-constexpr double kCoherentWidth = 0.25;
-constexpr double kCoherentShare = 0.25;
 // Descriptors recognise a place if at least so many matches agree with one pose, to within this
 // distance in map units, which leaves room for deformation.
 constexpr int kFewestRecognized = 10;
 constexpr double kRecognitionTolerance = 0.7;
+// So many times the wanted number of corners are described in a picture: not the same ones are
+// found in every picture.
+constexpr int kRecognizeAmong = 2;
 // The share of the corners that have to be found again for the camera to have moved as expected.
 constexpr double kContinuousShare = 0.5;
 // Two corners that are closer than this in a picture are one; pixels.
 constexpr double kSamePlace = 3.0;
 
-// Computes where the ray of a pixel intersects the plane of its patch. Returns false if there is no
-// patch.
-bool OnSurface(const ObservedSurface& surface,
-               const Eigen::Vector2d& pixel,
-               Eigen::Vector3d* point) {
-  const SurfacePatch* patch = surface.Find(pixel);
-  if (patch == nullptr) return false;
-  const Eigen::Vector3d ray = surface.camera().BackProject(pixel.x(), pixel.y(), 1.0);
-  const double along = patch->normal.dot(ray);
-  if (!(along < -0.1 * ray.norm())) return false;
-  *point = ray * (patch->normal.dot(patch->point) / along);
-  return true;
-}
-
-// Returns how the point where the ray of a pixel meets the plane through `point` changes with the
-// pixel: for the ray r(u, v) of depth 1, P = r (n . point) / (n . r).
-Eigen::Matrix<double, 3, 2> PlaneFromPixel(const PinholeCamera& camera,
-                                           const Eigen::Vector3d& point,
-                                           const Eigen::Vector3d& normal) {
-  const Eigen::Vector3d ray = point / point.z();
-  Eigen::Matrix<double, 3, 2> derivative;
-  derivative << 1.0 / camera.fx, 0.0, 0.0, 1.0 / camera.fy, 0.0, 0.0;
-  return point.z() * (derivative - ray * (normal.transpose() * derivative) / normal.dot(ray));
-}
-
-// Returns how the pixel of a point changes with the point.
-Eigen::Matrix<double, 2, 3> PixelFromPoint(const PinholeCamera& camera,
-                                           const Eigen::Vector3d& point) {
-  const double z = point.z();
-  Eigen::Matrix<double, 2, 3> derivative;
-  derivative << camera.fx / z, 0.0, -camera.fx * point.x() / (z * z), 0.0, camera.fy / z,
-      -camera.fy * point.y() / (z * z);
-  return derivative;
-}
-
-// Returns the pixels that have a patch.
-MaskImage Measured(const ObservedSurface& surface) {
-  MaskImage measured(surface.camera().width, surface.camera().height, 0);
-  for (int v = 0; v < measured.height(); ++v) {
-    for (int i = 0; i < surface.width(); ++i) {
-      if (!surface.patch(i, v / surface.cell()).valid()) continue;
-      const int end = std::min((i + 1) * surface.cell(), measured.width());
-      for (int u = i * surface.cell(); u < end; ++u) measured(u, v) = 1;
-    }
-  }
-  return measured;
-}
-
 }  // namespace
-
-FeaturePoints::Prediction FeaturePoints::Predict(const Feature& feature,
-                                                 const DeformableMap& map,
-                                                 const CameraPose& camera_from_map,
-                                                 const PinholeCamera& camera) const {
-  Prediction prediction;
-  const LocalWarp warp = map.WarpOf(feature.binding());
-  prediction.in_camera = camera_from_map * (warp * feature.at_rest);
-  if (!(prediction.in_camera.z() > 0.0)) {
-    prediction.pixel = feature.pixel;
-    return prediction;
-  }
-  prediction.pixel = camera.Project(prediction.in_camera);
-  prediction.now_from_then =
-      PixelFromPoint(camera, prediction.in_camera) *
-      (camera_from_map.rotation.toRotationMatrix() * warp.gradient * feature.rest_from_pixel);
-  const double area = prediction.now_from_then.determinant();
-  prediction.comparable = area >= kLeastArea && area <= kMostArea;
-  return prediction;
-}
 
 bool FeaturePoints::Track(ColorView image,
                           const ObservedSurface& surface,
@@ -142,21 +66,28 @@ bool FeaturePoints::Track(ColorView image,
   return continuous;
 }
 
+void FeaturePoints::Weigh(const DeformableMap& map, const CameraPose& camera_from_map) {
+  const std::vector<double> weights = WeighCorners(Matches(map), camera_from_map);
+  for (std::size_t k = 0; k < weights.size(); ++k) {
+    corners_[corners_.followed()[k]].weight = weights[k];
+  }
+}
+
 void FeaturePoints::Follow(const ObservedSurface& surface,
                            const DeformableMap& map,
                            const CameraPose& camera_from_map) {
-  std::vector<Prediction> predictions;
+  std::vector<CornerPrediction> predictions;
   std::vector<Eigen::Vector2d> before, predicted;
-  for (const int index : followed_) {
-    predictions.push_back(Predict(features_[index], map, camera_from_map, surface.camera()));
-    before.push_back(features_[index].pixel);
+  for (const int index : corners_.followed()) {
+    predictions.push_back(PredictCorner(corners_[index], map, camera_from_map, surface.camera()));
+    before.push_back(corners_[index].pixel);
     predicted.push_back(predictions.back().pixel);
   }
   std::vector<TrackedPixel> tracked = tracker_.Flow(before, predicted);
   const GrayLevels picture = tracker_.Levels();
   std::vector<std::size_t> unknown;
-  for (std::size_t k = 0; k < followed_.size(); ++k) {
-    Feature& f = features_[followed_[k]];
+  for (std::size_t k = 0; k < corners_.followed().size(); ++k) {
+    Corner& f = corners_[corners_.followed()[k]];
     PatchMatch match;
     if (predictions[k].comparable) {
       const Eigen::Matrix2d& now_from_then = predictions[k].now_from_then;
@@ -176,18 +107,16 @@ void FeaturePoints::Follow(const ObservedSurface& surface,
   }
   Bridge(before, predicted, unknown, &tracked);
   std::vector<int> kept;
-  for (std::size_t k = 0; k < followed_.size(); ++k) {
-    const int index = followed_[k];
-    Feature& f = features_[index];
-    is_followed_[index] = 0;
+  for (std::size_t k = 0; k < corners_.followed().size(); ++k) {
+    const int index = corners_.followed()[k];
+    Corner& f = corners_[index];
     Eigen::Vector3d in_camera;
     if (!tracked[k].found || !OnSurface(surface, tracked[k].pixel, &in_camera)) continue;
     f.pixel = tracked[k].pixel;
     f.in_camera = in_camera;
-    is_followed_[index] = 1;
     kept.push_back(index);
   }
-  followed_ = std::move(kept);
+  corners_.FollowOnly(std::move(kept));
 }
 
 // The method of Lucas and Kanade drifts, so that it may bridge only a few frames in which a corner
@@ -206,7 +135,7 @@ void FeaturePoints::Bridge(const std::vector<Eigen::Vector2d>& before,
   tracker_.CheckReturn(part_before, part_predicted, &part);
   for (std::size_t n = 0; n < unknown.size(); ++n) {
     const std::size_t k = unknown[n];
-    const bool bridged = part[n].found && ++features_[followed_[k]].misses <= kMostBridged;
+    const bool bridged = part[n].found && ++corners_[corners_.followed()[k]].misses <= kMostBridged;
     (*tracked)[k].found = bridged;
   }
 }
@@ -218,15 +147,14 @@ int FeaturePoints::Search(const ObservedSurface& surface,
                           const CameraPose& camera_from_map,
                           bool patient) {
   const PinholeCamera& camera = surface.camera();
-  std::vector<std::pair<int, Prediction>> candidates;
+  std::vector<std::pair<int, CornerPrediction>> candidates;
   for (const int node : map.NodesNearView(ViewVolume(camera_from_map, camera))) {
-    if (node >= static_cast<int>(of_node_.size())) continue;
-    for (const int index : of_node_[node]) {
+    for (const int index : corners_.OfNode(node)) {
       // The longer a corner is missed, the rarer it is searched for.
-      const Feature& f = features_[index];
+      const Corner& f = corners_[index];
       const int pause = patient ? 1 : 1 << std::min(f.misses, kLongestPause);
-      if (is_followed_[index] || (frame_ + index) % pause != 0) continue;
-      const Prediction p = Predict(f, map, camera_from_map, camera);
+      if (corners_.IsFollowed(index) || (frame_ + index) % pause != 0) continue;
+      const CornerPrediction p = PredictCorner(f, map, camera_from_map, camera);
       if (!p.comparable) continue;
       const SurfacePatch* patch = surface.Find(p.pixel);
       if (patch == nullptr) continue;
@@ -235,8 +163,8 @@ int FeaturePoints::Search(const ObservedSurface& surface,
     }
   }
   const auto first = [&](const auto& a, const auto& b) {
-    const Feature& f = features_[a.first];
-    const Feature& g = features_[b.first];
+    const Corner& f = corners_[a.first];
+    const Corner& g = corners_[b.first];
     return std::tie(f.misses, f.birth) < std::tie(g.misses, g.birth);
   };
   std::sort(candidates.begin(), candidates.end(), first);
@@ -245,7 +173,7 @@ int FeaturePoints::Search(const ObservedSurface& surface,
   const GrayLevels picture = tracker_.Levels();
   for (const auto& [index, prediction] : candidates) {
     const double reach = std::min(kMostReach, kRecallReach * camera.fx / prediction.in_camera.z());
-    Feature& f = features_[index];
+    Corner& f = corners_[index];
     const PatchMatch match =
         FindPatch(f.patch, picture, prediction.pixel, prediction.now_from_then, reach);
     Eigen::Vector3d in_camera;
@@ -253,10 +181,9 @@ int FeaturePoints::Search(const ObservedSurface& surface,
       f.pixel = match.pixel;
       f.in_camera = in_camera;
       f.misses = 0;
-      is_followed_[index] = 1;
-      followed_.push_back(index);
+      corners_.Follow(index);
     } else if (!patient && ++f.misses > kMostMisses) {
-      Remove(index);
+      corners_.Remove(index);
     }
   }
   MergeDoubles();
@@ -265,15 +192,15 @@ int FeaturePoints::Search(const ObservedSurface& surface,
 
 // Of followed corners at one place the oldest is kept: it has drifted least.
 void FeaturePoints::MergeDoubles() {
-  std::vector<int> order = followed_;
+  std::vector<int> order = corners_.followed();
   std::sort(order.begin(), order.end(), [&](int a, int b) {
-    return features_[a].birth < features_[b].birth;
+    return corners_[a].birth < corners_[b].birth;
   });
-  std::vector<int> kept;
+  std::vector<int> kept, doubles;
   // Corners by cells of the picture that are as large as a place.
   std::map<std::pair<int, int>, std::vector<int>> cells;
   for (const int index : order) {
-    const Eigen::Vector2d& pixel = features_[index].pixel;
+    const Eigen::Vector2d& pixel = corners_[index].pixel;
     const int i = static_cast<int>(std::floor(pixel.x() / kSamePlace));
     const int j = static_cast<int>(std::floor(pixel.y() / kSamePlace));
     bool taken = false;
@@ -282,117 +209,30 @@ void FeaturePoints::MergeDoubles() {
         const auto cell = cells.find({i + di, j + dj});
         if (cell == cells.end()) continue;
         taken = std::any_of(cell->second.begin(), cell->second.end(), [&](int other) {
-          return (features_[other].pixel - pixel).norm() < kSamePlace;
+          return (corners_[other].pixel - pixel).norm() < kSamePlace;
         });
       }
     }
     if (taken) {
-      is_followed_[index] = 0;
-      Remove(index);
+      doubles.push_back(index);
     } else {
       cells[{i, j}].push_back(index);
       kept.push_back(index);
     }
   }
-  followed_ = std::move(kept);
-}
-
-// The motion that the map does not predict yet is that of the camera and of the tissue, and both
-// are smooth: the motion of a corner that is right differs little from the median of its
-// neighbours. So a part of the tissue that moves on its own is followed as a whole, however far it
-// moves, and a corner that was confused with another one is not.
-void FeaturePoints::Weigh(const DeformableMap& map, const CameraPose& camera_from_map) {
-  const std::vector<PointMatch> matches = Matches(map);
-  std::vector<Eigen::Vector3d> motions;
-  motions.reserve(matches.size());
-  for (const PointMatch& m : matches) motions.push_back(m.in_camera - camera_from_map * m.in_map);
-  std::vector<std::pair<double, std::size_t>> order(matches.size());
-  std::array<std::vector<double>, 3> near;
-  for (std::size_t k = 0; k < matches.size(); ++k) {
-    for (std::size_t n = 0; n < matches.size(); ++n) {
-      order[n] = {(matches[n].in_map - matches[k].in_map).squaredNorm(), n};
-    }
-    // The corner itself is the nearest one.
-    const std::size_t count = std::min<std::size_t>(kWeighingNeighbors + 1, order.size());
-    std::partial_sort(
-        order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
-    for (std::vector<double>& values : near) values.clear();
-    for (std::size_t n = 1; n < count; ++n) {
-      if (order[n].first > kWeighingDistance * kWeighingDistance) break;
-      for (int axis = 0; axis < 3; ++axis) near[axis].push_back(motions[order[n].second][axis]);
-    }
-    Feature& f = features_[followed_[k]];
-    f.weight = kLonelyWeight;
-    if (near[0].size() < kFewestNeighbors) continue;
-    Eigen::Vector3d median;
-    for (int axis = 0; axis < 3; ++axis) median[axis] = Median(near[axis]);
-    const double width = kCoherentWidth + kCoherentShare * median.norm();
-    const double x = (motions[k] - median).norm() / width;
-    f.weight = x < 1.0 ? (1.0 - x * x) * (1.0 - x * x) : 0.0;
-  }
-}
-
-void FeaturePoints::Remove(int index) {
-  Feature& f = features_[index];
-  std::vector<int>& list = of_node_[f.nodes[0]];
-  list.erase(std::find(list.begin(), list.end(), index));
-  f = Feature();
-  free_.insert(index);
-}
-
-void FeaturePoints::Add(const Feature& feature) {
-  int index = static_cast<int>(features_.size());
-  if (free_.empty()) {
-    features_.emplace_back();
-    is_followed_.push_back(0);
-  } else {
-    // The lowest one, so that a loaded state goes on like the saved one.
-    index = *free_.begin();
-    free_.erase(free_.begin());
-  }
-  features_[index] = feature;
-  features_[index].birth = births_++;
-  is_followed_[index] = 1;
-  followed_.push_back(index);
-  const int node = feature.nodes[0];
-  if (node >= static_cast<int>(of_node_.size())) of_node_.resize(node + 1);
-  of_node_[node].push_back(index);
-}
-
-void FeaturePoints::Index() {
-  const auto outside = [&](int index) {
-    return index < 0 || index >= static_cast<int>(features_.size());
-  };
-  followed_.erase(std::remove_if(followed_.begin(), followed_.end(), outside), followed_.end());
-  is_followed_.assign(features_.size(), 0);
-  for (const int index : followed_) is_followed_[index] = 1;
-  free_.clear();
-  of_node_.clear();
-  for (int index = 0; index < static_cast<int>(features_.size()); ++index) {
-    const Feature& f = features_[index];
-    if (f.num_nodes == 0) {
-      free_.insert(index);
-      continue;
-    }
-    if (f.nodes[0] >= static_cast<int>(of_node_.size())) of_node_.resize(f.nodes[0] + 1);
-    of_node_[f.nodes[0]].push_back(index);
-  }
+  corners_.FollowOnly(std::move(kept));
+  for (const int index : doubles) corners_.Remove(index);
 }
 
 void FeaturePoints::Clear() {
   num_continued_ = 0;
-  std::fill(is_followed_.begin(), is_followed_.end(), 0);
-  followed_.clear();
-}
-
-std::size_t FeaturePoints::HeapBytes() const {
-  return HeapBytesOf(features_) + HeapBytesOf(is_followed_) + HeapBytesOfAll(of_node_);
+  corners_.FollowOnly({});
 }
 
 std::vector<PointMatch> FeaturePoints::Matches(const DeformableMap& map) const {
   std::vector<PointMatch> matches;
-  for (const int index : followed_) {
-    const Feature& f = features_[index];
+  for (const int index : corners_.followed()) {
+    const Corner& f = corners_[index];
     matches.push_back(
         {WarpPoint(map.graph(), map.state(), f.binding(), f.at_rest), f.in_camera, f.weight});
   }
@@ -401,8 +241,8 @@ std::vector<PointMatch> FeaturePoints::Matches(const DeformableMap& map) const {
 
 std::vector<MapObservation> FeaturePoints::Observations() const {
   std::vector<MapObservation> observations;
-  for (const int index : followed_) {
-    const Feature& f = features_[index];
+  for (const int index : corners_.followed()) {
+    const Corner& f = corners_[index];
     MapObservation o;
     o.position = f.at_rest;
     o.binding = PointBinding(f.binding());
@@ -419,17 +259,17 @@ double FeaturePoints::DropOutliers(const DeformableMap& map, double least_deviat
     distances.push_back((map.state().camera_from_map * m.in_map - m.in_camera).norm());
   }
   const double deviation = std::max(RobustDeviation(distances), least_deviation);
-  std::vector<int> kept;
-  for (std::size_t k = 0; k < followed_.size(); ++k) {
-    const int index = followed_[k];
+  std::vector<int> kept, gone;
+  for (std::size_t k = 0; k < corners_.followed().size(); ++k) {
+    const int index = corners_.followed()[k];
     if (distances[k] <= options_.max_deviations * deviation) {
       kept.push_back(index);
       continue;
     }
-    is_followed_[index] = 0;
-    if (++features_[index].misses > kMostMisses) Remove(index);
+    if (++corners_[index].misses > kMostMisses) gone.push_back(index);
   }
-  followed_ = std::move(kept);
+  corners_.FollowOnly(std::move(kept));
+  for (const int index : gone) corners_.Remove(index);
   return deviation;
 }
 
@@ -438,14 +278,15 @@ std::optional<CameraPose> FeaturePoints::Recognize(const ObservedSurface& surfac
   std::vector<Eigen::Vector3d> in_camera, in_map;
   std::vector<Eigen::Vector2d> pixels;
   for (const Eigen::Vector2d& pixel :
-       tracker_.Detect(Measured(surface), /*taken=*/{}, options_.count)) {
+       tracker_.Detect(Measured(surface), /*taken=*/{}, kRecognizeAmong * options_.count)) {
     Eigen::Vector3d point;
     if (!OnSurface(surface, pixel, &point)) continue;
     pixels.push_back(pixel);
     in_camera.push_back(point);
   }
   std::vector<CornerDescriptor> known;
-  for (const Feature& f : features_) {
+  for (int slot = 0; slot < corners_.num_slots(); ++slot) {
+    const Corner& f = corners_[slot];
     if (f.num_nodes == 0) continue;
     known.push_back(f.descriptor);
     in_map.push_back(WarpPoint(map.graph(), map.state(), f.binding(), f.at_rest));
@@ -460,9 +301,9 @@ std::optional<CameraPose> FeaturePoints::Recognize(const ObservedSurface& surfac
 
 void FeaturePoints::Replenish(const ObservedSurface& surface, const DeformableMap& map) {
   if (size() >= kReplenishBelow * options_.count) return;
-  const MaskImage allowed = Measured(surface);
+  const MaskImage allowed = Measured(surface, PatchTemplate::kMargin);
   std::vector<Eigen::Vector2d> taken;
-  for (const int index : followed_) taken.push_back(features_[index].pixel);
+  for (const int index : corners_.followed()) taken.push_back(corners_[index].pixel);
   const CameraPose& camera_from_map = map.state().camera_from_map;
   const GrayLevels picture = tracker_.Levels();
   PlaceBinder binder(map, camera_from_map, surface.camera());
@@ -472,7 +313,7 @@ void FeaturePoints::Replenish(const ObservedSurface& surface, const DeformableMa
   const std::vector<CornerDescriptor> descriptors = DescribeCorners(picture[0], found);
   for (std::size_t k = 0; k < found.size(); ++k) {
     const Eigen::Vector2d& pixel = found[k];
-    Feature f;
+    Corner f;
     f.pixel = pixel;
     f.descriptor = descriptors[k];
     if (!OnSurface(surface, pixel, &f.in_camera)) continue;
@@ -490,7 +331,7 @@ void FeaturePoints::Replenish(const ObservedSurface& surface, const DeformableMa
     f.num_nodes = binding.size;
     std::copy_n(binding.nodes, binding.size, f.nodes);
     std::copy_n(binding.weights, binding.size, f.weights);
-    Add(f);
+    corners_.Add(f);
   }
 }
 

@@ -5,18 +5,16 @@
 
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/slam/frame/camera_tracker.h>
-#include <ceres_ed/slam/frame/corner_descriptors.h>
+#include <ceres_ed/slam/frame/corner_store.h>
 #include <ceres_ed/slam/frame/map_growth.h>
 #include <ceres_ed/slam/frame/observations.h>
 #include <ceres_ed/slam/frame/observed_surface.h>
-#include <ceres_ed/slam/frame/patch_template.h>
 #include <ceres_ed/slam/frame/pixel_tracker.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam_options.h>
 
 #include <cstddef>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include <Eigen/Core>
@@ -76,54 +74,16 @@ class FeaturePoints {
   void Clear();
 
   // Returns the number of followed corners, and of all corners.
-  int size() const { return static_cast<int>(followed_.size()); }
-  int num_known() const { return static_cast<int>(features_.size() - free_.size()); }
+  int size() const { return static_cast<int>(corners_.followed().size()); }
+  int num_known() const { return corners_.num_corners(); }
 
   // Returns the bytes on the heap that grow with the map.
-  std::size_t HeapBytes() const;
+  std::size_t HeapBytes() const { return corners_.HeapBytes(); }
 
   // Saves the corners and the picture, or loads them and replaces the present ones.
   void Exchange(CheckpointArchive* archive);
 
  private:
-  struct Feature {
-    // The pixel in the last picture in which the corner was followed.
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-    // The position on the observed surface, in the camera frame.
-    Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();
-    Eigen::Vector3d at_rest = Eigen::Vector3d::Zero();
-    int nodes[kMaxBoundNodes];
-    double weights[kMaxBoundNodes];
-    // 0 for a free slot.
-    int num_nodes = 0;
-    // How the position at rest changes with the pixel in the picture of `patch`.
-    Eigen::Matrix<double, 3, 2> rest_from_pixel = Eigen::Matrix<double, 3, 2>::Zero();
-    PatchTemplate patch;
-    CornerDescriptor descriptor = {};
-    // How well the motion of the corner agrees with that of its neighbours, in [0, 1].
-    double weight = 1.0;
-    // The number of times that the corner was searched for in vain since it was last found.
-    int misses = 0;
-    // The order in which corners were born.
-    int birth = 0;
-
-    Binding binding() const { return {nodes, weights, num_nodes}; }
-  };
-
-  // A corner as the map and a camera predict it.
-  struct Prediction {
-    Eigen::Vector3d in_camera = Eigen::Vector3d::Zero();
-    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
-    // Maps offsets in the picture of the template to offsets in the present one.
-    Eigen::Matrix2d now_from_then = Eigen::Matrix2d::Identity();
-    // Whether the corner is before the camera and turned toward it, at a similar scale.
-    bool comparable = false;
-  };
-
-  Prediction Predict(const Feature& feature,
-                     const DeformableMap& map,
-                     const CameraPose& camera_from_map,
-                     const PinholeCamera& camera) const;
   void Follow(const ObservedSurface& surface,
               const DeformableMap& map,
               const CameraPose& camera_from_map);
@@ -141,22 +101,10 @@ class FeaturePoints {
   void MergeDoubles();
   // Weighs the followed corners by how well their motion agrees with that of their neighbours.
   void Weigh(const DeformableMap& map, const CameraPose& camera_from_map);
-  void Remove(int index);
-  void Add(const Feature& feature);
-  // Computes what checkpoints do not store.
-  void Index();
 
   FeatureOptions options_;
   PixelTracker tracker_;
-  // Slots, and those of them that are free.
-  std::vector<Feature> features_;
-  std::set<int> free_;
-  // Slots of the followed corners, and whether a slot is one of them.
-  std::vector<int> followed_;
-  std::vector<char> is_followed_;
-  // For each node, the slots of the corners that are bound most strongly to it.
-  std::vector<std::vector<int>> of_node_;
-  int births_ = 0;
+  CornerStore corners_;
   // The number of pictures so far, and of the corners that were followed into the last one.
   int frame_ = 0;
   int num_continued_ = 0;

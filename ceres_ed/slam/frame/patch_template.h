@@ -23,6 +23,8 @@ struct PatchTemplate {
   static constexpr int kRadius = 6;
   // The gradients need one pixel more.
   static constexpr int kSide = 2 * (kRadius + 1) + 1;
+  // The distance from the border of the picture at which a template can be cut out of both levels.
+  static constexpr int kMargin = 2 * (kRadius + 1) + 1;
 
   std::array<std::array<std::uint8_t, kSide * kSide>, 2> levels;
 
