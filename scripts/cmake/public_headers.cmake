@@ -10,11 +10,13 @@ set(CERES_ED_PUBLIC_HEADERS
     ceres_ed/energy/point_store.h
     ceres_ed/energy/residual_store.h
     ceres_ed/evaluation/pair_evaluation.h
+    ceres_ed/geometry/depth_noise.h
     ceres_ed/geometry/images.h
     ceres_ed/geometry/pinhole_camera.h
     ceres_ed/geometry/point_cloud.h
     ceres_ed/geometry/rigid_transform.h
     ceres_ed/geometry/similarity.h
+    ceres_ed/geometry/stereo_rig.h
     ceres_ed/graph/deformation_graph.h
     ceres_ed/graph/deformation_state.h
     ceres_ed/graph/graph_builder.h

@@ -163,7 +163,9 @@ TEST_F(LoadedFrames, OtherSizeThanTheCameraIsToldApart) {
   for (const auto& [frame, message] : std::vector<std::pair<int, std::string>>{
            {1, "depth/1.png: 3 x 4 pixels, expected 4 x 3 pixels as the camera has"},
            {2, "mask/2.png: 2 x 3 pixels, expected 4 x 3 pixels as the camera has"},
-           {3, "color/3.png: 8 x 6 pixels, expected 4 x 3 pixels as the camera has"}}) {
+           {3,
+            "color/3.png: 8 x 6 pixels, expected 4 x 3 pixels as the camera has; if they were "
+            "resized, multiply fx, fy, cx and cy of the calibration by 2"}}) {
     FrameProblem problem = FrameProblem::kNone;
     EXPECT_EQ(sequence->Load(frame, &problem).status().message(), folder_ / message);
     EXPECT_EQ(problem, FrameProblem::kWrongSize) << frame;

@@ -1,9 +1,11 @@
 #include "ceres_ed/io/sequence/depth_sequence.h"
 
-#include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/sequence/picture_reader.h>
 #include <ceres_ed/io/sequence/sequence_listing.h>
 
+#include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <utility>
 
 #include <glog/logging.h>
@@ -19,6 +21,37 @@ void ApplyMask(const MaskImage& mask, DepthImage* depth) {
   for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
     if (mask.pixels()[i] == 0) depth->pixels()[i] = 0.0F;
   }
+}
+
+// Returns a sentence about what to do if the pictures are the calibrated ones, made smaller or
+// larger; otherwise an empty string.
+std::string ScaleHint(const PinholeCamera& camera, int width, int height) {
+  const double scale = static_cast<double>(width) / camera.width;
+  if (height != std::lround(scale * camera.height)) return "";
+  std::ostringstream text;
+  text << "; if they were resized, multiply fx, fy, cx and cy of the calibration by " << scale;
+  return text.str();
+}
+
+// Moves an image that was read to `image`, unless it can't be read or has another size than
+// `camera`; `problem` says which.
+template <typename Picture>
+Status Take(const PictureSource& source,
+            const PinholeCamera& camera,
+            StatusOr<Picture> read,
+            Picture* image,
+            FrameProblem* problem) {
+  *problem = FrameProblem::kUnreadable;
+  if (!read.ok()) return read.status();
+  *problem = FrameProblem::kWrongSize;
+  if (read->width() != camera.width || read->height() != camera.height) {
+    return Status::Error(source.path + ": " + SizeText(read->width(), read->height()) +
+                         ", expected " + SizeText(camera.width, camera.height) +
+                         " as the camera has" + ScaleHint(camera, read->width(), read->height()));
+  }
+  *problem = FrameProblem::kNone;
+  *image = std::move(*read);
+  return Status::Ok();
 }
 
 }  // namespace
@@ -58,59 +91,54 @@ const CameraPose* DepthSequence::given_pose(int i) const {
 
 bool DepthSequence::has_color() const {
   for (const SequenceEntry& entry : listing_->entries) {
-    if (!entry.color_path.empty()) return true;
+    if (!entry.color.empty()) return true;
   }
   return false;
 }
 
-Status DepthSequence::CheckSize(const std::string& path, int width, int height) const {
-  if (width == camera().width && height == camera().height) return Status::Ok();
-  return Status::Error(path + ": " + SizeText(width, height) + ", expected " +
-                       SizeText(camera().width, camera().height) + " as the camera has");
+const StereoRig* DepthSequence::rig() const {
+  return listing_->rig.has_value() ? &*listing_->rig : nullptr;
 }
+
+bool DepthSequence::is_rectified() const { return listing_->is_rectified; }
 
 Status DepthSequence::LoadDepth(const SequenceEntry& entry,
                                 DepthFrame* frame,
                                 FrameProblem* problem) const {
   DepthImage* const depth = &frame->depth;
   StatusOr<DepthImage> read =
-      ReadDepthImage(entry.depth_path, depth_units_per_metre(), &frame->saturated);
-  *problem = FrameProblem::kUnreadable;
-  if (!read.ok()) return read.status();
-  *depth = std::move(*read);
-  Status size = CheckSize(entry.depth_path, depth->width(), depth->height());
-  *problem = FrameProblem::kWrongSize;
-  if (!size.ok()) return size;
-  *problem = FrameProblem::kNone;
-  if (entry.mask_path.empty()) return Status::Ok();
+      ReadDepth(entry.depth, listing_->depth_encoding, depth_units_per_metre(), &frame->saturated);
+  Status status = Take(entry.depth, camera(), std::move(read), depth, problem);
+  if (!status.ok() || entry.mask.empty()) return status;
+  MaskImage mask;
+  status = Take(entry.mask, camera(), ReadMask(entry.mask, listing_->mask_meaning), &mask, problem);
+  if (status.ok()) ApplyMask(mask, depth);
+  return status;
+}
 
-  const StatusOr<MaskImage> mask = ReadMaskImage(entry.mask_path);
-  *problem = FrameProblem::kUnreadable;
-  if (!mask.ok()) return mask.status();
-  size = CheckSize(entry.mask_path, mask->width(), mask->height());
-  *problem = FrameProblem::kWrongSize;
-  if (!size.ok()) return size;
-  *problem = FrameProblem::kNone;
-  ApplyMask(*mask, depth);
-  return Status::Ok();
+Status DepthSequence::LoadPair(const SequenceEntry& entry,
+                               DepthFrame* frame,
+                               FrameProblem* problem) const {
+  const PinholeCamera& left = listing_->rig->left.pinhole;
+  const PinholeCamera& right = listing_->rig->right.pinhole;
+  Status status = Take(entry.color, left, ReadColor(entry.color), &frame->color, problem);
+  if (!status.ok()) return status;
+  status = Take(entry.right, right, ReadColor(entry.right), &frame->right, problem);
+  if (!status.ok() || entry.mask.empty()) return status;
+  return Take(
+      entry.mask, left, ReadMask(entry.mask, listing_->mask_meaning), &frame->mask, problem);
 }
 
 // Depth is essential, colour is not: a frame is used even if its colour image is damaged.
 Status DepthSequence::LoadColor(const SequenceEntry& entry,
                                 DepthFrame* frame,
                                 FrameProblem* problem) const {
-  StatusOr<ColorImage> color = ReadColorImage(entry.color_path);
+  StatusOr<ColorImage> color = ReadColor(entry.color);
   if (!color.ok()) {
     frame->warning = color.status().message() + ": the frame is used without colour";
     return Status::Ok();
   }
-  Status size = CheckSize(entry.color_path, color->width(), color->height());
-  if (!size.ok()) {
-    *problem = FrameProblem::kWrongSize;
-    return size;
-  }
-  frame->color = std::move(*color);
-  return Status::Ok();
+  return Take(entry.color, camera(), std::move(color), &frame->color, problem);
 }
 
 StatusOr<DepthFrame> DepthSequence::Load(int i, FrameProblem* problem) const {
@@ -121,8 +149,11 @@ StatusOr<DepthFrame> DepthSequence::Load(int i, FrameProblem* problem) const {
   DepthFrame frame;
   frame.number = entry.number;
   frame.time_s = entry.time_s;
-  Status status = LoadDepth(entry, &frame, problem);
-  if (status.ok() && !entry.color_path.empty()) status = LoadColor(entry, &frame, problem);
+  const bool is_stereo = rig() != nullptr;
+  Status status = is_stereo ? LoadPair(entry, &frame, problem) : LoadDepth(entry, &frame, problem);
+  if (status.ok() && !is_stereo && !entry.color.empty()) {
+    status = LoadColor(entry, &frame, problem);
+  }
   if (!status.ok()) return status;
   return frame;
 }

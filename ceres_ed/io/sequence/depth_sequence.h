@@ -1,6 +1,7 @@
-// Reads a folder of depth images of one camera, frame by frame.
+// Reads a folder of depth images of one camera, or of the pictures of a stereo camera, frame by
+// frame.
 //
-// There are three layouts (required files are marked *):
+// These are the layouts (required files are marked *):
 //
 //   native  *camera.txt              fx fy cx cy width height depth_units_per_metre
 //           *depth/NNNNNN.png        16 bits, 0 = no depth
@@ -18,16 +19,22 @@
 //           *depth/ or depth01/      *.png, 16 bits, millimetres
 //            color/ or image01/      *.png|jpg
 //            mask/                   *.png|jpg
+//   native_stereo
+//           *stereo.txt              fx fy cx_left cx_right cy width height baseline_metres
+//           *left/, right/           NNNNNN.png|jpg, rectified
+//            mask/, poses.txt        as in native, of the left camera
+//            camera.txt, depth/      as in native, if depth was measured too
 //
-// In native and hamlyn, the number of a frame is given by the digits at the end of a file's name,
-// padded or not. There may be gaps. In tum, frames are numbered from 0 in the order of time. Each
-// colour image belongs to the depth image nearest in time, one to one, and the pose is the nearest
-// one, both within 0.02 s.
+// In native, hamlyn and native_stereo, the number of a frame is given by the digits at the end of a
+// file's name, padded or not. There may be gaps. In tum, frames are numbered from 0 in the order of
+// time. Each colour image belongs to the depth image nearest in time, one to one, and the pose is
+// the nearest one, both within 0.02 s.
 #ifndef CERES_ED_IO_SEQUENCE_DEPTH_SEQUENCE_H_
 #define CERES_ED_IO_SEQUENCE_DEPTH_SEQUENCE_H_
 
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
+#include <ceres_ed/geometry/stereo_rig.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/util/named_values.h>
 #include <ceres_ed/util/status.h>
@@ -43,13 +50,28 @@ struct SequenceEntry;
 struct SequenceListing;
 
 // The layout of a folder.
-enum class SequenceFormat { kAuto, kNative, kTum, kHamlyn };
+enum class SequenceFormat { kAuto, kNative, kTum, kHamlyn, kNativeStereo };
 
-constexpr std::array<NamedValue<SequenceFormat>, 4> NamesOf(SequenceFormat) {
+constexpr std::array<NamedValue<SequenceFormat>, 5> NamesOf(SequenceFormat) {
   return {{{"auto", SequenceFormat::kAuto},
            {"tum", SequenceFormat::kTum},
            {"native", SequenceFormat::kNative},
-           {"hamlyn", SequenceFormat::kHamlyn}}};
+           {"hamlyn", SequenceFormat::kHamlyn},
+           {"native_stereo", SequenceFormat::kNativeStereo}}};
+}
+
+// Where the depth of a frame comes from. A sequence may have both images of depth and the pictures
+// of two cameras.
+enum class DepthFrom {
+  // The images of depth if there are any, otherwise the two pictures.
+  kAuto,
+  kImages,
+  kStereo,
+};
+
+constexpr std::array<NamedValue<DepthFrom>, 3> NamesOf(DepthFrom) {
+  return {
+      {{"auto", DepthFrom::kAuto}, {"images", DepthFrom::kImages}, {"stereo", DepthFrom::kStereo}}};
 }
 
 // Options for the frames to read.
@@ -63,7 +85,9 @@ struct SequenceOptions {
   int last = -1;
   // Read every step-th of the existing frames, beginning with the first one; >= 1.
   int step = 1;
-  // If false, colour is not read even if there is some.
+  // Where depth comes from.
+  DepthFrom depth_from = DepthFrom::kAuto;
+  // If false, colour is not read even if there is some, except for stereo, which needs it.
   bool color = true;
   // If false, masks are not applied: all measured depth is used.
   bool masks = true;
@@ -84,11 +108,16 @@ struct DepthFrame {
   // The time in seconds, as DepthSequence::time_s().
   double time_s = 0.0;
   // The depth in metres, of the camera's size; 0 where nothing was measured or the mask is zero.
+  // Empty in a stereo sequence, whose depth is found by comparing the pictures.
   DepthImage depth;
   // The number of pixels whose depth was the largest number of the file, 65535: they are left out.
   int saturated = 0;
-  // The colour image of the same size, or empty.
+  // The colour image of the same size, or empty. In a stereo sequence, the left picture.
   ColorImage color;
+  // In a stereo sequence, the right picture and the mask of the left one; the mask is empty if all
+  // pixels count. Empty in other sequences.
+  ColorImage right;
+  MaskImage mask;
   // The reason why `color` is empty although the sequence has a file for it; otherwise empty.
   std::string warning;
 };
@@ -98,8 +127,8 @@ enum class FrameProblem {
   kNone,
   // A file is missing, damaged or of another kind. Other frames may be valid: skip this frame.
   kUnreadable,
-  // Depth, mask or colour has another size than the camera. The calibration does not belong to this
-  // sequence: stop here.
+  // Depth, mask or a picture has another size than the camera. The calibration does not belong to
+  // this sequence: stop here.
   kWrongSize,
 };
 
@@ -113,8 +142,14 @@ class DepthSequence {
   DepthSequence& operator=(const DepthSequence&) = delete;
 
   const PinholeCamera& camera() const;
-  // The number of stored depth units in a metre (metres = stored depth / this).
+  // The number of stored depth units in a metre (metres = stored depth / this). It means nothing in
+  // a stereo sequence.
   double depth_units_per_metre() const;
+  // Returns the two cameras if this is a stereo sequence, whose frames have a left and a right
+  // picture and no depth; otherwise null.
+  const StereoRig* rig() const;
+  // Returns whether the pictures of a stereo sequence are said to be rectified.
+  bool is_rectified() const;
 
   int num_frames() const;
   // The number of frame i in the sequence, 0 <= i < num_frames(). Numbers are ascending.
@@ -133,16 +168,15 @@ class DepthSequence {
   // Sentences about missing parts: gaps, frames without colour, mask or pose, assumed intrinsics.
   const std::vector<std::string>& warnings() const;
 
-  // Reads frame i and applies its mask. The error names the file; if `problem` is not null, it then
-  // says whether the caller can continue without this frame. A missing or damaged colour image is
-  // not an error: the frame has no colour.
+  // Reads frame i and, unless it is a stereo sequence, applies its mask to the depth. The error
+  // names the file; if `problem` is not null, it then says whether the caller can continue without
+  // this frame. A missing or damaged colour image is not an error: the frame has no colour.
   StatusOr<DepthFrame> Load(int i, FrameProblem* problem = nullptr) const;
 
  private:
   const SequenceEntry& entry(int i) const;
-  // Returns an error unless an image of `path` has the camera's size.
-  Status CheckSize(const std::string& path, int width, int height) const;
   Status LoadDepth(const SequenceEntry& entry, DepthFrame* frame, FrameProblem* problem) const;
+  Status LoadPair(const SequenceEntry& entry, DepthFrame* frame, FrameProblem* problem) const;
   Status LoadColor(const SequenceEntry& entry, DepthFrame* frame, FrameProblem* problem) const;
 
   std::unique_ptr<const SequenceListing> listing_;

@@ -82,6 +82,10 @@ std::string ChooseFolder(const std::string& directory, const char* name, const c
 
 }  // namespace
 
+bool IsHamlynSequence(const std::string& directory) {
+  return IsFile(JoinPath(directory, "intrinsics.txt"));
+}
+
 StatusOr<SequenceListing> ListHamlynSequence(const std::string& directory) {
   const StatusOr<PinholeCamera> camera = ReadIntrinsics(JoinPath(directory, "intrinsics.txt"));
   if (!camera.ok()) return camera.status();
@@ -89,8 +93,11 @@ StatusOr<SequenceListing> ListHamlynSequence(const std::string& directory) {
   if (!IsFolder(depth_folder)) {
     return Status::Error(directory + ": no depth, expected a folder depth/ or depth01/ in it");
   }
-  StatusOr<SequenceListing> listing = ListPictureFolders(
-      {depth_folder, ChooseFolder(directory, "color", "image01"), JoinPath(directory, "mask")});
+  PictureFolders folders;
+  folders.depth = depth_folder;
+  folders.color = ChooseFolder(directory, "color", "image01");
+  folders.mask = JoinPath(directory, "mask");
+  StatusOr<SequenceListing> listing = ListPictureFolders(folders);
   if (!listing.ok()) return listing.status();
   listing->camera = {*camera, kMillimetresPerMetre};
   Status status = SetSizeFromPictures(listing->entries, &listing->camera.camera);

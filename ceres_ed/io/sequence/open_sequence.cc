@@ -36,7 +36,7 @@ Status UnknownLayout(const std::string& directory, const std::string& problem) {
 
 StatusOr<const SequenceFormatReader*> GuessFormat(const std::string& directory) {
   for (const SequenceFormatReader& reader : kSequenceFormats) {
-    if (IsFile(JoinPath(directory, reader.mark))) return &reader;
+    if (reader.recognizes(directory)) return &reader;
   }
   return UnknownLayout(directory,
                        IsEmptyFolder(directory) ? "the folder is empty"
@@ -107,13 +107,12 @@ void AddWarnings(SequenceListing* listing) {
   std::vector<std::string> sentences = {GapWarning(entries)};
   if (listing->has_color) {
     sentences.push_back(LackWarning(
-        entries, "colour", [](const SequenceEntry& entry) { return entry.color_path.empty(); }));
+        entries, "colour", [](const SequenceEntry& entry) { return entry.color.empty(); }));
   }
   if (listing->has_masks) {
-    sentences.push_back(
-        LackWarning(entries, "a mask (all of their depth counts)", [](const SequenceEntry& entry) {
-          return entry.mask_path.empty();
-        }));
+    sentences.push_back(LackWarning(entries,
+                                    "a mask (all of their depth counts)",
+                                    [](const SequenceEntry& entry) { return entry.mask.empty(); }));
   }
   if (listing->has_poses) {
     sentences.push_back(LackWarning(entries, "a given pose", [](const SequenceEntry& entry) {
@@ -123,6 +122,38 @@ void AddWarnings(SequenceListing* listing) {
   for (std::string& sentence : sentences) {
     if (!sentence.empty()) listing->warnings.push_back(std::move(sentence));
   }
+}
+
+// Leaves in the listing either the images of depth or the rig.
+Status ChooseDepth(const std::string& directory, DepthFrom from, SequenceListing* listing) {
+  const bool has_images = !listing->entries.front().depth.empty();
+  const bool has_stereo = listing->rig.has_value();
+  if (!has_images && !has_stereo) {
+    return Status::Error(directory +
+                         ": no depth, expected images of depth, or pictures of two cameras and "
+                         "their calibration");
+  }
+  const bool is_missing =
+      from == DepthFrom::kStereo ? !has_stereo : from == DepthFrom::kImages && !has_images;
+  if (is_missing) {
+    return Status::Error(
+        directory + ": depth_from is " + NameOf(from) + ", expected " +
+        NameOf(has_images ? DepthFrom::kImages : DepthFrom::kStereo) + ": the sequence has " +
+        (has_images ? "no calibrated pictures of two cameras" : "no images of depth"));
+  }
+  if (has_images && has_stereo && from == DepthFrom::kAuto) {
+    listing->warnings.push_back(directory +
+                                ": has both images of depth and the pictures of two cameras; the "
+                                "images are used (depth_from=stereo takes the pictures)");
+  }
+  if (from == DepthFrom::kStereo || !has_images) {
+    listing->camera.camera = listing->rig->left.pinhole;
+    for (SequenceEntry& entry : listing->entries) entry.depth = {};
+  } else {
+    listing->rig.reset();
+    for (SequenceEntry& entry : listing->entries) entry.right = {};
+  }
+  return Status::Ok();
 }
 
 // Keeps every step-th entry, beginning with the first one.
@@ -140,14 +171,20 @@ std::string Describe(const SequenceFormatReader& reader,
                      const SequenceListing& listing) {
   std::ostringstream text;
   text << NameOf(reader.format);
-  if (is_guessed) text << " (guessed: there is " << reader.mark << ")";
+  if (is_guessed) text << " (guessed: there is " << reader.sign << ")";
   const std::size_t num_frames = listing.entries.size();
   text << ", " << num_frames << (num_frames == 1 ? " frame: " : " frames: ")
        << listing.entries.front().number;
   if (num_frames > 1) text << " to " << listing.entries.back().number;
   text << ", " << listing.camera.camera.width << " x " << listing.camera.camera.height
-       << " pixels, " << listing.camera.depth_units_per_metre << " depth units per metre, "
-       << (listing.has_color ? "" : "no ") << "colour, " << (listing.has_masks ? "" : "no ")
+       << " pixels, ";
+  if (listing.rig.has_value()) {
+    text << "stereo with a baseline of " << 1e3 * listing.rig->right_from_left.translation.norm()
+         << " mm, " << (listing.is_rectified ? "rectified, " : "not rectified, ");
+  } else {
+    text << listing.camera.depth_units_per_metre << " depth units per metre, ";
+  }
+  text << (listing.has_color ? "" : "no ") << "colour, " << (listing.has_masks ? "" : "no ")
        << "masks, " << (listing.has_poses ? "" : "no ") << "poses";
   return text.str();
 }
@@ -165,6 +202,9 @@ const OptionTable<SequenceOptions>& SequenceOptions::Rows() {
           .OnResume(ResumeRule::kFree)
           .Main(),
       Row(&O::step, "step", "Every n-th frame is taken.").In(AtLeast(1)).Main(),
+      Row(&O::depth_from,
+          "depth_from",
+          "Where depth comes from if a sequence has both images of depth and stereo pictures."),
       Row(&O::color, "color", "Read the colour pictures where there are some."),
       Row(&O::masks, "masks", "Leave out the pixels that the masks leave out."),
       Row(&O::depth_units_per_metre,
@@ -205,13 +245,15 @@ StatusOr<std::unique_ptr<DepthSequence>> OpenSequence(const std::string& directo
   if (options.depth_units_per_metre > 0.0) {
     listing->camera.depth_units_per_metre = options.depth_units_per_metre;
   }
-  if (!options.color) {
+  Status depth = ChooseDepth(directory, options.depth_from, &*listing);
+  if (!depth.ok()) return depth;
+  if (!options.color && !listing->rig.has_value()) {
     listing->has_color = false;
-    for (SequenceEntry& entry : listing->entries) entry.color_path.clear();
+    for (SequenceEntry& entry : listing->entries) entry.color = {};
   }
   if (!options.masks) {
     listing->has_masks = false;
-    for (SequenceEntry& entry : listing->entries) entry.mask_path.clear();
+    for (SequenceEntry& entry : listing->entries) entry.mask = {};
   }
   AddWarnings(&*listing);
   Thin(options.step, &listing->entries);

@@ -1,5 +1,6 @@
 #include "ceres_ed/io/sequence/picture_files.h"
 
+#include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/image_io.h>
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/io/text_rows.h>
@@ -38,46 +39,6 @@ std::optional<int> FrameNumber(const fs::path& name) {
   const StatusOr<int> number = ParseNatural("", "", std::string_view(stem).substr(begin));
   if (!number.ok()) return std::nullopt;
   return *number;
-}
-
-// Returns the images of a folder by number.
-StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& folder,
-                                                          bool lossless_only,
-                                                          std::vector<std::string>* warnings) {
-  std::error_code error;
-  std::vector<fs::path> names;
-  fs::directory_iterator file(folder, error);
-  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
-    const fs::path name = file->path().filename();
-    const std::string extension = Lowercase(name.extension().string());
-    const bool is_picture =
-        extension == ".png" || (!lossless_only && (extension == ".jpg" || extension == ".jpeg"));
-    // Some systems create a hidden copy of every file.
-    const bool is_hidden = name.string()[0] == '.';
-    if (is_picture && !is_hidden && IsFile(file->path().string())) names.push_back(name);
-  }
-  if (error) return Status::Error(folder + ": cannot be listed: " + error.message());
-  std::sort(names.begin(), names.end());
-
-  std::map<int, std::string> pictures;
-  int num_without_number = 0;
-  for (const fs::path& name : names) {
-    const std::optional<int> number = FrameNumber(name);
-    if (!number.has_value()) {
-      ++num_without_number;
-      continue;
-    }
-    const auto [entry, is_new] = pictures.emplace(*number, JoinPath(folder, name.string()));
-    if (!is_new) {
-      return Status::Error(entry->second + ": frame " + std::to_string(*number) + " is in " +
-                           Quoted(name.string()) + " too, expected one file a frame");
-    }
-  }
-  if (num_without_number > 0) {
-    warnings->push_back(folder + ": names of " + std::to_string(num_without_number) +
-                        " pictures do not end in a frame number; they are left out");
-  }
-  return pictures;
 }
 
 // Returns the path of a number, or an empty path.
@@ -136,7 +97,7 @@ StatusOr<std::pair<int, int>> ReadPictureSize(const std::string& path) {
 Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCamera* camera) {
   Status first_error = Status::Ok();
   for (const SequenceEntry& entry : entries) {
-    const StatusOr<std::pair<int, int>> size = ReadPictureSize(entry.depth_path);
+    const StatusOr<std::pair<int, int>> size = ReadPictureSize(entry.depth.path);
     if (size.ok()) {
       camera->width = size->first;
       camera->height = size->second;
@@ -146,6 +107,45 @@ Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCam
   }
   CHECK(!first_error.ok()) << "a sequence has at least one frame";
   return first_error;
+}
+
+StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& folder,
+                                                          bool lossless_only,
+                                                          std::vector<std::string>* warnings) {
+  std::error_code error;
+  std::vector<fs::path> names;
+  fs::directory_iterator file(folder, error);
+  for (; !error && file != fs::directory_iterator(); file.increment(error)) {
+    const fs::path name = file->path().filename();
+    const std::string extension = Lowercase(name.extension().string());
+    const bool is_picture =
+        extension == ".png" || (!lossless_only && (extension == ".jpg" || extension == ".jpeg"));
+    // Some systems create a hidden copy of every file.
+    const bool is_hidden = name.string()[0] == '.';
+    if (is_picture && !is_hidden && IsFile(file->path().string())) names.push_back(name);
+  }
+  if (error) return Status::Error(folder + ": cannot be listed: " + error.message());
+  std::sort(names.begin(), names.end());
+
+  std::map<int, std::string> pictures;
+  int num_without_number = 0;
+  for (const fs::path& name : names) {
+    const std::optional<int> number = FrameNumber(name);
+    if (!number.has_value()) {
+      ++num_without_number;
+      continue;
+    }
+    const auto [entry, is_new] = pictures.emplace(*number, JoinPath(folder, name.string()));
+    if (!is_new) {
+      return Status::Error(entry->second + ": frame " + std::to_string(*number) + " is in " +
+                           Quoted(name.string()) + " too, expected one file a frame");
+    }
+  }
+  if (num_without_number > 0) {
+    warnings->push_back(folder + ": names of " + std::to_string(num_without_number) +
+                        " pictures do not end in a frame number; they are left out");
+  }
+  return pictures;
 }
 
 StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders) {
@@ -172,14 +172,86 @@ StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders) {
     SequenceEntry entry;
     entry.number = number;
     entry.time_s = number;
-    entry.depth_path = path;
-    entry.color_path = PathOf(*colors, number);
-    entry.mask_path = PathOf(*masks, number);
+    entry.depth.path = path;
+    entry.color.path = PathOf(*colors, number);
+    entry.mask.path = PathOf(*masks, number);
     listing.entries.push_back(std::move(entry));
   }
   listing.has_color = !colors->empty();
   listing.has_masks = !masks->empty();
   return listing;
+}
+
+StatusOr<SequenceListing> ListStereoFolders(const PictureFolders& folders) {
+  SequenceListing listing;
+  using Pictures = std::map<int, std::string>;
+  const auto list = [&listing](const std::string& folder, bool lossless_only) {
+    if (!IsFolder(folder)) return StatusOr<Pictures>(Pictures());
+    return ListNumberedPictures(folder, lossless_only, &listing.warnings);
+  };
+  Pictures lefts, rights;
+  const std::pair<const std::string*, Pictures*> sides[] = {{&folders.color, &lefts},
+                                                            {&folders.right, &rights}};
+  for (const auto& [folder, pictures] : sides) {
+    if (!IsFolder(*folder)) {
+      return Status::Error(*folder + ": no such folder, expected pictures of one camera in it");
+    }
+    StatusOr<Pictures> found = list(*folder, false);
+    if (!found.ok()) return found.status();
+    if (found->empty()) {
+      return Status::Error(*folder +
+                           ": no picture, expected at least one NNNNNN.png or NNNNNN.jpg");
+    }
+    *pictures = *std::move(found);
+  }
+  const StatusOr<Pictures> depths = list(folders.depth, true);
+  if (!depths.ok()) return depths.status();
+  const StatusOr<Pictures> masks = list(folders.mask, false);
+  if (!masks.ok()) return masks.status();
+
+  std::size_t with_depth = 0;
+  for (const auto& [number, path] : lefts) {
+    if (rights.count(number) == 0) continue;
+    SequenceEntry entry;
+    entry.number = number;
+    entry.time_s = number;
+    entry.color.path = path;
+    entry.right.path = rights[number];
+    entry.mask.path = PathOf(*masks, number);
+    entry.depth.path = PathOf(*depths, number);
+    with_depth += entry.depth.empty() ? 0 : 1;
+    listing.entries.push_back(std::move(entry));
+  }
+  if (listing.entries.empty()) {
+    return Status::Error(folders.color + ": no frame number is in " + Quoted(folders.right) +
+                         " too, expected pairs with the same number");
+  }
+  const std::size_t alone = lefts.size() + rights.size() - 2 * listing.entries.size();
+  if (alone > 0) {
+    listing.warnings.push_back(folders.color + ": " + std::to_string(alone) +
+                               " left or right pictures have no partner of the same number; they "
+                               "are left out");
+  }
+  if (with_depth < listing.entries.size()) {
+    for (SequenceEntry& entry : listing.entries) entry.depth = {};
+  }
+  listing.has_color = true;
+  listing.has_masks = !masks->empty();
+  return listing;
+}
+
+Status AddPosesFile(const std::string& path, SequenceListing* listing) {
+  if (!IsFile(path)) return Status::Ok();
+  const StatusOr<std::vector<FramePose>> poses = ReadPosesFile(path);
+  if (!poses.ok()) return poses.status();
+  std::map<int, const CameraPose*> pose_of_frame;
+  for (const FramePose& pose : *poses) pose_of_frame[pose.frame] = &pose.world_from_camera;
+  for (SequenceEntry& entry : listing->entries) {
+    const auto pose = pose_of_frame.find(entry.number);
+    if (pose != pose_of_frame.end()) entry.world_from_camera = *pose->second;
+  }
+  listing->has_poses = true;
+  return Status::Ok();
 }
 
 }  // namespace ceres_ed

@@ -26,14 +26,23 @@ bool IsEmptyFolder(const std::string& path);
 // Errors are as those of ReadDepthImage().
 StatusOr<std::pair<int, int>> ReadPictureSize(const std::string& path);
 
-// Sets the camera's size from the first frame whose image can be read. It is an error if there is
+// Sets the camera's size from the first frame whose depth can be read. It is an error if there is
 // none.
 Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCamera* camera);
+
+// Returns the pictures of a folder (PNG, and JPEG unless `lossless_only`) by the number in the
+// digits at the end of their names. Adds a warning if there are names without a number. It is an
+// error if two files have the same number or if the folder can't be listed.
+StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& folder,
+                                                          bool lossless_only,
+                                                          std::vector<std::string>* warnings);
 
 // The paths of folders of numbered images; empty if there is none.
 struct PictureFolders {
   std::string depth;
+  // Of a stereo camera, the left pictures.
   std::string color;
+  std::string right;
   std::string mask;
 };
 
@@ -41,6 +50,16 @@ struct PictureFolders {
 // its number. It is an error if there is no depth folder, if it has no image, or if two files have
 // the same number.
 StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders);
+
+// Returns the frames of a stereo sequence: one for each number with a left and a right picture.
+// Depth is optional; the frames have it only if all of them do. Pictures without a partner give a
+// warning. It is an error if a folder is missing or has no picture, if no number has both, or if
+// two files have the same number. The caller adds the calibration.
+StatusOr<SequenceListing> ListStereoFolders(const PictureFolders& folders);
+
+// Adds the poses of a file `frame tx ty tz qx qy qz qw`, if there is one, to the frames with these
+// numbers.
+Status AddPosesFile(const std::string& path, SequenceListing* listing);
 
 }  // namespace ceres_ed
 

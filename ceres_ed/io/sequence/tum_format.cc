@@ -74,9 +74,9 @@ void AssociateColors(const std::vector<TimedFile>& colors, std::vector<SequenceE
   std::sort(pairs.begin(), pairs.end());
   std::vector<bool> is_taken(colors.size(), false);
   for (const auto& [difference, i, j] : pairs) {
-    if (is_taken[j] || !(*entries)[i].color_path.empty()) continue;
+    if (is_taken[j] || !(*entries)[i].color.empty()) continue;
     is_taken[j] = true;
-    (*entries)[i].color_path = colors[j].path;
+    (*entries)[i].color.path = colors[j].path;
   }
 }
 
@@ -157,6 +157,10 @@ Status SetCamera(const std::string& directory, SequenceListing* listing) {
 
 }  // namespace
 
+bool IsTumSequence(const std::string& directory) {
+  return IsFile(JoinPath(directory, "depth.txt"));
+}
+
 StatusOr<SequenceListing> ListTumSequence(const std::string& directory) {
   const StatusOr<std::vector<TimedFile>> depths = ReadFileList(directory, "depth.txt");
   if (!depths.ok()) return depths.status();
@@ -168,7 +172,7 @@ StatusOr<SequenceListing> ListTumSequence(const std::string& directory) {
     SequenceEntry entry;
     entry.number = static_cast<int>(i);
     entry.time_s = depth.time_s;
-    entry.depth_path = depth.path;
+    entry.depth.path = depth.path;
     listing.entries.push_back(std::move(entry));
   }
   const std::string list_path = JoinPath(directory, "depth.txt");
@@ -186,7 +190,7 @@ StatusOr<SequenceListing> ListTumSequence(const std::string& directory) {
     if (!colors.ok()) return colors.status();
     AssociateColors(*colors, &listing.entries);
     for (SequenceEntry& entry : listing.entries) {
-      if (!IsFile(entry.color_path)) entry.color_path.clear();
+      if (!IsFile(entry.color.path)) entry.color = {};
     }
     listing.has_color = !colors->empty();
   }
