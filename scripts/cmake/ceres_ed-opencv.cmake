@@ -1,6 +1,6 @@
 # OpenCV's modules by name, for Debian's package file for CMake asks for all of them: sets
 # CERES_ED_HAVE_OPENCV, and CERES_ED_OPENCV_MISSING to what is missing, empty where nothing is.
-set(ceres_ed_opencv_parts core features2d imgproc imgcodecs video)
+set(ceres_ed_opencv_parts core calib3d features2d imgproc imgcodecs video)
 set(CERES_ED_OPENCV_MISSING "")
 foreach(part IN LISTS ceres_ed_opencv_parts)
   find_library(CERES_ED_opencv_${part}_LIBRARY opencv_${part})

@@ -24,14 +24,24 @@
 //           *left/, right/           NNNNNN.png|jpg, rectified
 //            mask/, poses.txt        as in native, of the left camera
 //            camera.txt, depth/      as in native, if depth was measured too
+//   scikit_surgery
+//           *calib.left.intrinsic.txt, calib.right.intrinsic.txt
+//                                    3 rows of 3 numbers, pixels
+//            calib.left.distortion.txt, calib.right.distortion.txt
+//                                    k1 k2 p1 p2 [k3 ...] as OpenCV has them
+//           *calib.l2r.txt           4 rows of 4 numbers: right from left, millimetres; or
+//                                    calib.r2l.txt, its inverse
+//           *left/, right/           NNNNNN.png|jpg, as the cameras give them
+//            mask/, poses.txt        as in native, of the left camera
 //
-// In native, hamlyn and native_stereo, the number of a frame is given by the digits at the end of a
+// In all but tum, the number of a frame is given by the digits at the end of a
 // file's name, padded or not. There may be gaps. In tum, frames are numbered from 0 in the order of
 // time. Each colour image belongs to the depth image nearest in time, one to one, and the pose is
 // the nearest one, both within 0.02 s.
 #ifndef CERES_ED_IO_SEQUENCE_DEPTH_SEQUENCE_H_
 #define CERES_ED_IO_SEQUENCE_DEPTH_SEQUENCE_H_
 
+#include <ceres_ed/geometry/depth_noise.h>
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/geometry/stereo_rig.h>
@@ -50,14 +60,15 @@ struct SequenceEntry;
 struct SequenceListing;
 
 // The layout of a folder.
-enum class SequenceFormat { kAuto, kNative, kTum, kHamlyn, kNativeStereo };
+enum class SequenceFormat { kAuto, kNative, kTum, kHamlyn, kNativeStereo, kScikitSurgery };
 
-constexpr std::array<NamedValue<SequenceFormat>, 5> NamesOf(SequenceFormat) {
+constexpr std::array<NamedValue<SequenceFormat>, 6> NamesOf(SequenceFormat) {
   return {{{"auto", SequenceFormat::kAuto},
            {"tum", SequenceFormat::kTum},
            {"native", SequenceFormat::kNative},
            {"hamlyn", SequenceFormat::kHamlyn},
-           {"native_stereo", SequenceFormat::kNativeStereo}}};
+           {"native_stereo", SequenceFormat::kNativeStereo},
+           {"scikit_surgery", SequenceFormat::kScikitSurgery}}};
 }
 
 // Where the depth of a frame comes from. A sequence may have both images of depth and the pictures
@@ -110,6 +121,12 @@ struct DepthFrame {
   // The depth in metres, of the camera's size; 0 where nothing was measured or the mask is zero.
   // Empty in a stereo sequence, whose depth is found by comparing the pictures.
   DepthImage depth;
+  // How uncertain the depth is, in metres; unknown for images of depth.
+  DepthNoise noise;
+  // Of stereo pictures: the seconds that comparing them took, and the share of the pixels that count
+  // whose depth was found; -1 for images of depth.
+  double stereo_s = -1.0;
+  double valid_share = -1.0;
   // The number of pixels whose depth was the largest number of the file, 65535: they are left out.
   int saturated = 0;
   // The colour image of the same size, or empty. In a stereo sequence, the left picture.

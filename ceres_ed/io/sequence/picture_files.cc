@@ -2,12 +2,14 @@
 
 #include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/sequence/picture_reader.h>
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/io/text_rows.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -238,6 +240,35 @@ StatusOr<SequenceListing> ListStereoFolders(const PictureFolders& folders) {
   listing.has_color = true;
   listing.has_masks = !masks->empty();
   return listing;
+}
+
+Status SetSizeFromPicture(const SequenceListing& listing, StereoRig* rig) {
+  Status first_error = Status::Ok();
+  for (const SequenceEntry& entry : listing.entries) {
+    const StatusOr<ColorImage> picture = ReadColor(entry.color);
+    if (!picture.ok()) {
+      if (first_error.ok()) first_error = picture.status();
+      continue;
+    }
+    for (PinholeCamera* camera : {&rig->left.pinhole, &rig->right.pinhole}) {
+      camera->width = picture->width();
+      camera->height = picture->height();
+      // The centre of an endoscope's picture is near the principal point.
+      const double du = std::abs(camera->cx / camera->width - 0.5);
+      const double dv = std::abs(camera->cy / camera->height - 0.5);
+      if (std::max(du, dv) <= 0.5) continue;
+      return Status::Error(entry.color.path + ": " + std::to_string(camera->width) + " x " +
+                           std::to_string(camera->height) +
+                           " pixels, and the calibration has its "
+                           "principal point at (" +
+                           std::to_string(std::lround(camera->cx)) + ", " +
+                           std::to_string(std::lround(camera->cy)) +
+                           "), expected the calibration of pictures of this size");
+    }
+    return Status::Ok();
+  }
+  CHECK(!first_error.ok()) << "a sequence has at least one frame";
+  return first_error;
 }
 
 Status AddPosesFile(const std::string& path, SequenceListing* listing) {

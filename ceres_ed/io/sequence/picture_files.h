@@ -57,6 +57,11 @@ StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders);
 // two files have the same number. The caller adds the calibration.
 StatusOr<SequenceListing> ListStereoFolders(const PictureFolders& folders);
 
+// Sets the size of both cameras from the first left picture that can be read, as calibrations often
+// do not give it. It is an error if there is none, or if a principal point is so far outside of the
+// picture that the calibration cannot belong to it.
+Status SetSizeFromPicture(const SequenceListing& listing, StereoRig* rig);
+
 // Adds the poses of a file `frame tx ty tz qx qy qz qw`, if there is one, to the frames with these
 // numbers.
 Status AddPosesFile(const std::string& path, SequenceListing* listing);

@@ -28,6 +28,8 @@ struct SequenceFormatReader {
 // Each pair is in a file of its own. depth_sequence.h describes the layouts.
 bool IsNativeStereoSequence(const std::string& directory);
 StatusOr<SequenceListing> ListNativeStereoSequence(const std::string& directory);
+bool IsScikitSurgerySequence(const std::string& directory);
+StatusOr<SequenceListing> ListScikitSurgerySequence(const std::string& directory);
 bool IsNativeSequence(const std::string& directory);
 StatusOr<SequenceListing> ListNativeSequence(const std::string& directory);
 bool IsTumSequence(const std::string& directory);
@@ -44,6 +46,11 @@ inline constexpr SequenceFormatReader kSequenceFormats[] = {
      "stereo.txt, left/NNNNNN.png and right/NNNNNN.png",
      IsNativeStereoSequence,
      ListNativeStereoSequence},
+    {SequenceFormat::kScikitSurgery,
+     "calib.left.intrinsic.txt",
+     "calib.left.intrinsic.txt, calib.right.intrinsic.txt, calib.l2r.txt, left/ and right/",
+     IsScikitSurgerySequence,
+     ListScikitSurgerySequence},
     {SequenceFormat::kNative,
      "camera.txt",
      "camera.txt and depth/NNNNNN.png",
