@@ -63,6 +63,7 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           .OnResume(ResumeRule::kFree)
           .Main(),
       Nested(&S::sequence, SequenceOptions::Rows()),
+      Nested(&S::stereo, StereoOptions::Rows(), "stereo_"),
       Nested(&S::options, SlamOptions::Rows()),
   });
   return rows;
@@ -116,6 +117,7 @@ StatusOr<SlamCommand> ReadSlamFlags() {
   command.options.levels.energies = *std::move(energies);
   std::string error;
   if (!command.sequence.IsValid(&error)) return Status::Error(error);
+  if (!command.stereo.IsValid(&error)) return Status::Error("stereo_" + error);
   if (!command.options.IsValid(&error)) return Status::Error(error);
   return command;
 }

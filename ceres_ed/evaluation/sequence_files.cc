@@ -34,10 +34,10 @@ Status OpenPictures(const std::string& folder, SequenceFiles* files) {
   SequenceOptions options;
   options.color = false;
   options.masks = false;
-  StatusOr<std::unique_ptr<DepthSequence>> opened = OpenSequence(folder, options);
+  StatusOr<std::unique_ptr<DepthSource>> opened = OpenDepthSource(folder, options, StereoOptions());
   if (!opened.ok()) return opened.status();
   files->pictures = *std::move(opened);
-  const DepthSequence& pictures = *files->pictures;
+  const DepthSource& pictures = *files->pictures;
   files->camera = pictures.camera();
   for (int i = 0; i < pictures.num_frames(); ++i) {
     files->index_of_frame[pictures.frame_number(i)] = i;

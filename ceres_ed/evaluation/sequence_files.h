@@ -7,9 +7,9 @@
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/io/results/frames_csv.h>
-#include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/io/sequence/picture_tracks.h>
 #include <ceres_ed/io/sequence/scene_truth.h>
+#include <ceres_ed/stereo/depth_source.h>
 #include <ceres_ed/util/status.h>
 
 #include <map>
@@ -24,10 +24,11 @@ namespace ceres_ed {
 // (poses.txt, gt_vertices.f32, gt_mesh_000000.ply, tracks_2d.csv) and number the frames like the
 // layout. Poses that belong to the layout itself are truth, too.
 struct SequenceFiles {
+  // The camera of the depth: of a stereo sequence, the rectified left one.
   PinholeCamera camera;
   // All pictures, without colours and masks; null if the folder contains camera.txt and poses.txt
   // but no depth.
-  std::unique_ptr<DepthSequence> pictures;
+  std::unique_ptr<DepthSource> pictures;
   // The index of the picture of each frame.
   std::map<int, int> index_of_frame;
   // The true camera poses by frame; empty if they are not known.

@@ -2,6 +2,7 @@
 #ifndef CERES_ED_SLAM_SLAM_TYPES_H_
 #define CERES_ED_SLAM_SLAM_TYPES_H_
 
+#include <ceres_ed/geometry/depth_noise.h>
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/util/named_values.h>
@@ -21,6 +22,9 @@ struct SlamFrame {
   DepthView depth;
   // The colour image; empty if there is none.
   ColorView color;
+  // How uncertain the depth is. If it is not known, the noise is measured from each depth image,
+  // one number for all of its pixels.
+  DepthNoise noise;
   // The pose for CameraMode::kGiven; null if it is not known.
   const CameraPose* world_from_camera = nullptr;
   // Whether the whole map will be requested after this frame.

@@ -20,7 +20,7 @@ std::string ProblemOf(const PairFindings& findings, bool is_rectified) {
   const std::string corners = " (" + std::to_string(findings.corners) + " corners)";
   if (findings.IsUnrectified()) {
     return "the rows of the left and the right picture do not correspond: they differ by " +
-           Pixels(findings.RowError()) + corners + ", expected " +
+           Pixels(findings.row_error) + corners + ", expected " +
            (is_rectified
                 ? "rectified pictures, or the calibration of both cameras with their distortion"
                 : "the calibration of these pictures, with the transform from the left to the "
@@ -53,7 +53,7 @@ const CameraPose* DepthSource::given_pose(int i) const {
 
 std::string DepthSource::description() const { return sequence_->description(); }
 
-Status DepthSource::CheckFirstPair(const std::string& name) {
+Status DepthSource::CheckFirstPair(const std::string& name, bool refuse) {
   for (int i = 0; i < sequence_->num_frames(); ++i) {
     FrameProblem problem = FrameProblem::kNone;
     const StatusOr<DepthFrame> frame = sequence_->Load(i, &problem);
@@ -64,10 +64,12 @@ Status DepthSource::CheckFirstPair(const std::string& name) {
         CheckPair(GrayOf(pair.left), GrayOf(pair.right), pair.left_mask, matcher_->rig().offset);
     const std::string where = name + ": frame " + std::to_string(frame->number) + ": ";
     const std::string sentence = ProblemOf(findings, sequence_->is_rectified());
-    if (!sentence.empty()) return Status::Error(where + sentence);
-    if (findings.IsRough()) {
+    if (!sentence.empty() && refuse) return Status::Error(where + sentence);
+    if (!sentence.empty()) {
+      warnings_.push_back(where + sentence);
+    } else if (findings.IsRough()) {
       warnings_.push_back(where + "the rows of the left and the right picture differ by " +
-                          Pixels(findings.RowError()) +
+                          Pixels(findings.row_error) +
                           ", expected less than 1: the calibration is not exact, and depth may be "
                           "missing or wrong");
     }
@@ -97,7 +99,7 @@ StatusOr<std::unique_ptr<DepthSource>> DepthSource::Create(std::unique_ptr<Depth
       if (pose != nullptr) turned = *pose * left_from_rectified;
     }
   }
-  Status status = source->CheckFirstPair(name);
+  Status status = source->CheckFirstPair(name, options.check);
   if (!status.ok()) return status;
   return StatusOr<std::unique_ptr<DepthSource>>(std::move(source));
 }
@@ -110,7 +112,7 @@ StatusOr<DepthFrame> DepthSource::Load(int i, FrameProblem* problem) const {
   frame->depth = std::move(found.depth);
   frame->color = std::move(found.left);
   frame->right = ColorImage();
-  frame->mask = MaskImage();
+  if (!frame->mask.empty() || !sequence_->is_rectified()) frame->mask = std::move(found.mask);
   frame->noise = matcher_->noise();
   frame->valid_share = found.valid_share;
   frame->stereo_s = timer.Seconds();

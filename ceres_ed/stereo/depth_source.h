@@ -20,8 +20,8 @@ namespace ceres_ed {
 class DepthSource {
  public:
   // Takes a sequence. A stereo sequence is checked with its first pair that can be read: it is an
-  // error if left and right are swapped, or if the rows do not correspond (CheckPair()). `name` is
-  // the sequence in messages.
+  // error (or a warning, by `options.check`) if left and right are swapped, or if the rows do not
+  // correspond (CheckPair()). `name` is the sequence in messages.
   static StatusOr<std::unique_ptr<DepthSource>> Create(std::unique_ptr<DepthSequence> sequence,
                                                        const std::string& name,
                                                        const StereoOptions& options);
@@ -34,6 +34,9 @@ class DepthSource {
   // The rectified cameras of a stereo sequence, otherwise null.
   const RectifiedRig* rig() const;
   int num_frames() const { return sequence_->num_frames(); }
+  int frame_number(int i) const { return sequence_->frame_number(i); }
+  double time_s(int i) const { return sequence_->time_s(i); }
+  bool has_color() const { return sequence_->has_color(); }
   // Returns the true world_from_camera of frame i for that camera, in metres; null if the sequence
   // has none.
   const CameraPose* given_pose(int i) const;
@@ -43,13 +46,13 @@ class DepthSource {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
   // Returns frame i as DepthSequence::Load() does. A frame of stereo pictures gets depth, noise and
-  // the rectified left picture as colour; `right` and `mask` are empty then. The same frame gives
+  // the rectified left picture and its mask; `right` is empty then. The same frame gives
   // the same bytes in any order and at any number of threads.
   StatusOr<DepthFrame> Load(int i, FrameProblem* problem = nullptr) const;
 
  private:
   DepthSource() = default;
-  Status CheckFirstPair(const std::string& name);
+  Status CheckFirstPair(const std::string& name, bool refuse);
 
   std::unique_ptr<DepthSequence> sequence_;
   // Null if the sequence has images of depth.

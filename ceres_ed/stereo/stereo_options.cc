@@ -45,6 +45,9 @@ const OptionTable<StereoOptions>& StereoOptions::Rows() {
           .In(Above(0))
           .Unit("pixels")
           .Main(),
+      Row(&O::check,
+          "check",
+          "Refuse pictures that are swapped or whose rows do not correspond; otherwise only warn."),
   });
   return rows;
 }

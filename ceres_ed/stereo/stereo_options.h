@@ -56,6 +56,9 @@ struct StereoOptions {
   // of the depth (depth_noise.h).
   double disparity_sigma = 0.25;
 
+  // Whether a sequence is refused if left and right are swapped or the rows do not correspond.
+  bool check = true;
+
   // Returns true if every option is in its range. Otherwise returns false and writes to `error` the
   // value and what was expected.
   bool IsValid(std::string* error) const;

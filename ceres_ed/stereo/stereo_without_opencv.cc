@@ -29,10 +29,6 @@ StereoDepth StereoMatcher::Match(const ColorImage&, const ColorImage&, const Mas
 
 GrayImage GrayOf(const ColorImage& color) { return GrayImage(color.width(), color.height()); }
 
-double PairFindings::RowError() const { return 0.0; }
-bool PairFindings::IsSwapped() const { return false; }
-bool PairFindings::IsUnrectified() const { return false; }
-bool PairFindings::IsRough() const { return false; }
 PairFindings CheckPair(const GrayImage&, const GrayImage&, const MaskImage&, double) { return {}; }
 
 }  // namespace ceres_ed

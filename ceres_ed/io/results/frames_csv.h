@@ -14,8 +14,10 @@ namespace ceres_ed {
 // The columns after frame and status. Scripts rely on their names and, up to energy, on their
 // order. Units are seconds, metres and counts. t_total is the time of the whole frame without
 // t_load (reading and decoding, except for the part that was done during the previous frame) and
-// t_write. NaN, which is an empty cell, means that a value is not known for this frame.
-inline constexpr std::array<const char*, 35> kFrameColumns = {
+// t_write. t_stereo is the time of comparing stereo pictures, which may be done during the previous
+// frame, and valid_share the share of their pixels whose depth was found. NaN, which is an empty
+// cell, means that a value is not known for this frame.
+inline constexpr std::array<const char*, 37> kFrameColumns = {
     "t_total",         "t_load",
     "t_associate",     "t_camera",
     "t_level1",        "t_level2",
@@ -33,7 +35,8 @@ inline constexpr std::array<const char*, 35> kFrameColumns = {
     "verify_camera_m", "t_verify",
     "explained",       "overlap",
     "weak_directions", "tentative",
-    "foreground"};
+    "foreground",      "t_stereo",
+    "valid_share"};
 
 // One row.
 struct FrameRecord {

@@ -5,12 +5,15 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace ceres_ed {
+namespace {
 
-std::string DepthRangeWarning(const DepthImage& depth, double depth_units_per_metre) {
+// Returns a sentence that ends with `question` if the scene is nearer or farther than scenes are.
+std::string RangeWarning(const DepthImage& depth, const std::string& question) {
   constexpr float kNearest = 1e-3F;
   constexpr float kFarthest = 100.0F;
   std::vector<float> measured;
@@ -24,9 +27,25 @@ std::string DepthRangeWarning(const DepthImage& depth, double depth_units_per_me
   if (median >= kNearest && median <= kFarthest) return "";
   std::ostringstream sentence;
   sentence << "the scene is " << median << " m away, "
-           << (median < kNearest ? "nearer than 1 mm" : "farther than 100 m")
-           << ": is the depth really stored as " << depth_units_per_metre << " units per metre?";
+           << (median < kNearest ? "nearer than 1 mm" : "farther than 100 m") << ": " << question;
   return sentence.str();
+}
+
+std::string Text(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+}  // namespace
+
+std::string DepthRangeWarning(const DepthImage& depth, double depth_units_per_metre) {
+  return RangeWarning(
+      depth, "is the depth really stored as " + Text(depth_units_per_metre) + " units per metre?");
+}
+
+std::string StereoRangeWarning(const DepthImage& depth, double baseline) {
+  return RangeWarning(depth, "are the cameras really " + Text(baseline) + " m apart?");
 }
 
 }  // namespace ceres_ed

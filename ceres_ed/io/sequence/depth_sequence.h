@@ -123,8 +123,8 @@ struct DepthFrame {
   DepthImage depth;
   // How uncertain the depth is, in metres; unknown for images of depth.
   DepthNoise noise;
-  // Of stereo pictures: the seconds that comparing them took, and the share of the pixels that count
-  // whose depth was found; -1 for images of depth.
+  // Of stereo pictures: the seconds that comparing them took, and the share of the pixels that
+  // count whose depth was found; -1 for images of depth.
   double stereo_s = -1.0;
   double valid_share = -1.0;
   // The number of pixels whose depth was the largest number of the file, 65535: they are left out.
@@ -213,6 +213,9 @@ StatusOr<std::unique_ptr<DepthSequence>> OpenSequence(const std::string& directo
 // returns an empty string. `depth` is in metres. `depth_units_per_metre` is the number with which
 // it was read; the sentence names it.
 std::string DepthRangeWarning(const DepthImage& depth, double depth_units_per_metre);
+
+// Does the same for depth that was found with two cameras that are `baseline` metres apart.
+std::string StereoRangeWarning(const DepthImage& depth, double baseline);
 
 }  // namespace ceres_ed
 

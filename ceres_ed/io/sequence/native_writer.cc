@@ -111,7 +111,9 @@ Status NativeSequenceWriter::WriteFrame(const NativeFrame& frame) {
     CHECK_EQ(image.height(), options_.camera.camera.height);
   };
   const fs::path root(directory_);
-  const std::string name = PictureName(num_frames());
+  const int number = frame.number >= 0 ? frame.number : last_number_ + 1;
+  CHECK_GT(number, last_number_);
+  const std::string name = PictureName(number);
   const auto write_picture = [&](const char* folder, const ColorImage& picture) {
     check_size(picture);
     if (Status status = MakeFolder(root / folder); !status.ok()) return status;
@@ -135,7 +137,9 @@ Status NativeSequenceWriter::WriteFrame(const NativeFrame& frame) {
   } else {
     CHECK(truth_ == nullptr) << "frame " << num_frames() << " has no truth, those before it had";
   }
-  poses_.push_back({num_frames(), frame.world_from_camera});
+  if (frame.has_pose) poses_.push_back({number, frame.world_from_camera});
+  last_number_ = number;
+  ++num_frames_;
   return Status::Ok();
 }
 
@@ -154,6 +158,7 @@ Status NativeSequenceWriter::Close() {
   if (truth_ != nullptr) {
     if (Status status = truth_->Close(); !status.ok()) return status;
   }
+  if (poses_.empty() && num_frames_ > 0) return Status::Ok();
   return WritePosesFile((fs::path(directory_) / "poses.txt").string(), poses_);
 }
 

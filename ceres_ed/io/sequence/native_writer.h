@@ -36,14 +36,19 @@ struct NativeFrame {
   const ColorImage* color = nullptr;
   const MaskImage* mask = nullptr;
   CameraPose world_from_camera;
+  // Whether the pose is known; it is not written if it is not.
+  bool has_pose = true;
+  // The number of the frame, larger than that of the frame before; -1: one more than that.
+  int number = -1;
   // The vertices of the true surface in the world frame, in metres; null if they are not known. All
   // frames have the same number of them, or none has any.
   const std::vector<Eigen::Vector3d>* truth = nullptr;
 };
 
-// Writes frames 000000, 000001 and so on. camera.txt and each image are complete files as soon as
-// they are written. Poses and ground truth are complete when Close() returns; without Close()
-// they are not written. The memory that is needed grows by one pose for each frame only.
+// Writes frames 000000, 000001 and so on, or with the numbers that they are given. camera.txt and
+// each image are complete files as soon as they are written. Poses and ground truth are complete
+// when Close() returns; without Close() they are not written. The memory that is needed grows by
+// one pose for each frame only.
 class NativeSequenceWriter {
  public:
   // Creates the folder (with its parents) and returns the writer. Returns an error if `directory`
@@ -59,7 +64,7 @@ class NativeSequenceWriter {
   // once.
   Status Close();
 
-  int num_frames() const { return static_cast<int>(poses_.size()); }
+  int num_frames() const { return num_frames_; }
 
  private:
   NativeSequenceWriter(std::string directory, const NativeSequenceOptions& options);
@@ -68,6 +73,8 @@ class NativeSequenceWriter {
   std::string directory_;
   NativeSequenceOptions options_;
   std::vector<FramePose> poses_;
+  int num_frames_ = 0;
+  int last_number_ = -1;
   // Null before the first frame with ground truth.
   std::unique_ptr<SceneTruthWriter> truth_;
 };

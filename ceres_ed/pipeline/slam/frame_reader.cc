@@ -5,18 +5,18 @@
 
 namespace ceres_ed {
 
-ReadFrame FrameReader::Load(const DepthSequence& sequence, int index) {
+ReadFrame FrameReader::Load(const DepthSource& source, int index) {
   FrameProblem problem = FrameProblem::kNone;
-  StatusOr<DepthFrame> frame = sequence.Load(index, &problem);
+  StatusOr<DepthFrame> frame = source.Load(index, &problem);
   return {std::move(frame), problem};
 }
 
 ReadFrame FrameReader::Read(int index) {
   const bool is_on_its_way = next_.valid() && next_index_ == index;
-  ReadFrame read = is_on_its_way ? next_.get() : Load(sequence_, index);
-  if (reads_ahead_ && index + 1 < sequence_.num_frames()) {
+  ReadFrame read = is_on_its_way ? next_.get() : Load(source_, index);
+  if (reads_ahead_ && index + 1 < source_.num_frames()) {
     next_index_ = index + 1;
-    next_ = std::async(std::launch::async, Load, std::cref(sequence_), next_index_);
+    next_ = std::async(std::launch::async, Load, std::cref(source_), next_index_);
   }
   return read;
 }

@@ -3,10 +3,10 @@
 #define CERES_ED_PIPELINE_SLAM_SLAM_OBSERVER_H_
 
 #include <ceres_ed/io/results/frames_csv.h>
-#include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/pipeline/run_observer.h>
 #include <ceres_ed/pipeline/slam/slam_settings.h>
 #include <ceres_ed/slam/slam.h>
+#include <ceres_ed/stereo/depth_source.h>
 
 #include <string>
 #include <vector>
@@ -16,7 +16,7 @@ namespace ceres_ed {
 // The state of a run. None of the pointers is null.
 struct SlamRun {
   const SlamSettings* settings = nullptr;
-  const DepthSequence* sequence = nullptr;
+  const DepthSource* sequence = nullptr;
   const DeformableSlam* slam = nullptr;
   const std::vector<FrameRecord>* records = nullptr;
   const std::vector<std::string>* warnings = nullptr;

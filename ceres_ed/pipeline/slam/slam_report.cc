@@ -70,21 +70,28 @@ ordered_json MemoryReport(const DeformableSlam& slam) {
 }
 
 ordered_json SequenceReport(const SlamRun& run) {
-  const DepthSequence& sequence = *run.sequence;
+  const DepthSource& sequence = *run.sequence;
   const PinholeCamera& camera = sequence.camera();
-  return {{"path", run.settings->input},
-          {"description", sequence.description()},
-          {"frames", sequence.num_frames()},
-          {"first", sequence.frame_number(0)},
-          {"last", sequence.frame_number(sequence.num_frames() - 1)},
-          {"width", camera.width},
-          {"height", camera.height},
-          {"fx", camera.fx},
-          {"fy", camera.fy},
-          {"cx", camera.cx},
-          {"cy", camera.cy},
-          {"depth_units_per_metre", sequence.depth_units_per_metre()},
-          {"color", sequence.has_color()}};
+  ordered_json report = {{"path", run.settings->input},
+                         {"description", sequence.description()},
+                         {"frames", sequence.num_frames()},
+                         {"first", sequence.frame_number(0)},
+                         {"last", sequence.frame_number(sequence.num_frames() - 1)},
+                         {"width", camera.width},
+                         {"height", camera.height},
+                         {"fx", camera.fx},
+                         {"fy", camera.fy},
+                         {"cx", camera.cx},
+                         {"cy", camera.cy},
+                         {"depth_units_per_metre", sequence.sequence().depth_units_per_metre()},
+                         {"color", sequence.has_color()}};
+  if (!sequence.is_stereo()) return report;
+  // The camera above is the rectified left one, and its depth has no stored unit.
+  report.erase("depth_units_per_metre");
+  report["stereo"] = {{"rectified", sequence.sequence().is_rectified()},
+                      {"baseline", sequence.rig()->baseline},
+                      {"disparity_of_infinity", sequence.rig()->offset}};
+  return report;
 }
 
 ordered_json FramesReport(const std::vector<FrameRecord>& records) {
@@ -111,6 +118,7 @@ ordered_json TimeReport(const SlamRun& run) {
   ordered_json report = {{"total", run.total_s}};
   for (const char* column : kFrameColumns) {
     const std::string name = column;
+    if (name == "t_stereo" && !run.sequence->is_stereo()) continue;
     if (name.rfind("t_", 0) == 0) report[name] = Statistics(ColumnOf(*run.records, name));
   }
   return report;

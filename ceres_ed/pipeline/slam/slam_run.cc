@@ -18,7 +18,7 @@
 namespace ceres_ed {
 namespace {
 
-bool HasPoses(const DepthSequence& sequence) {
+bool HasPoses(const DepthSource& sequence) {
   for (int i = 0; i < sequence.num_frames(); ++i) {
     if (sequence.given_pose(i) != nullptr) return true;
   }
@@ -62,8 +62,8 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   if (!outcome.done()) return outcome;
 
   // Open the sequence and check the output folder.
-  const StatusOr<std::unique_ptr<DepthSequence>> sequence =
-      OpenSequence(settings.input, settings.sequence);
+  const StatusOr<std::unique_ptr<DepthSource>> sequence =
+      OpenDepthSource(settings.input, settings.sequence, settings.stereo);
   if (!sequence.ok()) return Outcome::BadInput(sequence.status());
   outcome = CheckOutputFolder(settings);
   if (!outcome.done()) return outcome;

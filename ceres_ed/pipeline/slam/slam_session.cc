@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 #include <string_view>
 #include <utility>
@@ -103,13 +104,14 @@ Outcome SlamSession::TakeFrame() {
   FrameRecord record;
   record.number = sequence_.frame_number(index);
   record["t_load"] = timer.Seconds();
+  record["t_stereo"] = record["valid_share"] = std::numeric_limits<double>::quiet_NaN();
   if (!frame.ok()) {
     if (problem == FrameProblem::kWrongSize) return Outcome::BadInput(frame.status());
     warnings_->Add("unreadable", frame.status().message() + ": frame skipped");
     depth_key_.clear();
   } else {
     if (!frame->warning.empty()) warnings_->Add("color", frame->warning);
-    CheckDepth(frame->depth);
+    CheckDepth(*frame);
     if (frame->saturated > 0) {
       warnings_->Add("saturated",
                      "frame " + std::to_string(frame->number) + ": " +
@@ -117,6 +119,7 @@ Outcome SlamSession::TakeFrame() {
                          " pixels have the largest depth, 65535, and are left out");
     }
     Outcome outcome = Track(*frame, index, &record);
+    NoteStereo(*frame, &record);
     if (!outcome.done()) return outcome;
   }
   records_.push_back(record);
@@ -124,12 +127,22 @@ Outcome SlamSession::TakeFrame() {
   return status.ok() ? Outcome::Done() : Outcome::BadInput(status);
 }
 
-void SlamSession::CheckDepth(const DepthImage& depth) {
-  depth_key_ = Fingerprint(depth);
+void SlamSession::CheckDepth(const DepthFrame& frame) {
+  depth_key_ = Fingerprint(frame.depth);
   if (depth_checked_) return;
   depth_checked_ = true;
-  const std::string warning = DepthRangeWarning(depth, sequence_.depth_units_per_metre());
+  const std::string warning =
+      sequence_.is_stereo()
+          ? StereoRangeWarning(frame.depth, sequence_.rig()->baseline)
+          : DepthRangeWarning(frame.depth, sequence_.sequence().depth_units_per_metre());
   if (!warning.empty()) warnings_->Add("depth range", settings_.input + ": " + warning);
+}
+
+void SlamSession::NoteStereo(const DepthFrame& frame, FrameRecord* record) const {
+  const bool is_stereo = sequence_.is_stereo();
+  const double nothing = std::numeric_limits<double>::quiet_NaN();
+  (*record)["t_stereo"] = is_stereo ? frame.stereo_s : nothing;
+  (*record)["valid_share"] = is_stereo ? frame.valid_share : nothing;
 }
 
 Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* record) {
@@ -139,6 +152,7 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   input.number = frame.number;
   input.depth = &frame.depth;
   input.color = &frame.color;
+  input.noise = frame.noise;
   if (settings_.options.camera == CameraMode::kGiven) {
     input.world_from_camera = sequence_.given_pose(index);
     if (input.world_from_camera == nullptr) {
@@ -304,7 +318,7 @@ Outcome SlamSession::Resume(const std::string& path) {
 
 std::string SlamSession::FramesKey() const {
   const PinholeCamera& c = sequence_.camera();
-  const double units = sequence_.depth_units_per_metre();
+  const double units = sequence_.sequence().depth_units_per_metre();
   std::string key;
   AppendNumbers({c.fx, c.fy, c.cx, c.cy, c.width * 1.0, c.height * 1.0, units}, &key);
   for (int i = 0; i < next_; ++i) AppendNumbers({sequence_.frame_number(i) * 1.0}, &key);

@@ -14,6 +14,7 @@
 #include <ceres_ed/slam/checkpoint.h>
 #include <ceres_ed/slam/slam.h>
 #include <ceres_ed/slam/tracked_points.h>
+#include <ceres_ed/stereo/depth_source.h>
 #include <ceres_ed/util/timer.h>
 
 #include <memory>
@@ -27,7 +28,7 @@ class SlamSession {
  public:
   // `clock` must have been started with the program.
   SlamSession(const SlamSettings& settings,
-              const DepthSequence& sequence,
+              const DepthSource& sequence,
               const EnergyRegistry& registry,
               DeformableSlam* slam,
               WarningLog* warnings,
@@ -55,7 +56,9 @@ class SlamSession {
   // Reads and processes the next frame, and writes its row.
   Outcome TakeFrame();
   // Stores the fingerprint of the depth, and warns if the first depth image has an unlikely range.
-  void CheckDepth(const DepthImage& depth);
+  void CheckDepth(const DepthFrame& frame);
+  // Fills in what is known of the comparison of stereo pictures.
+  void NoteStereo(const DepthFrame& frame, FrameRecord* record) const;
   // Tracks the frame, fills in its record, and writes everything but its row.
   Outcome Track(const DepthFrame& frame, int index, FrameRecord* record);
   // Writes the results and returns how the run ended.
@@ -72,7 +75,7 @@ class SlamSession {
   void ExchangeProgress(CheckpointArchive* archive);
 
   const SlamSettings& settings_;
-  const DepthSequence& sequence_;
+  const DepthSource& sequence_;
   const EnergyRegistry& registry_;
   FrameReader reader_;
   DeformableSlam* slam_;

@@ -5,6 +5,7 @@
 #include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/pipeline/run_flag.h>
 #include <ceres_ed/slam/slam_options.h>
+#include <ceres_ed/stereo/stereo_options.h>
 
 #include <limits>
 #include <string>
@@ -15,6 +16,7 @@ namespace ceres_ed {
 struct SlamSettings {
   SlamOptions options;
   SequenceOptions sequence;
+  StereoOptions stereo;
   // The folder of the sequence.
   std::string input;
   // The folder that is written.
