@@ -8,7 +8,8 @@ const ceres_ed::ProgramInfo kProgram = {
     "ed_simulate",
     "SCENE --output=DIR [flags]",
     "Makes a sequence of depth and colour pictures of deforming tissue, in the layout that ed_slam "
-    "reads, with the truth: camera poses, and every vertex of the tissue in every frame. SCENE is "
+    "reads, or of stereo pictures (--stereo), with the truth: camera poses, and every vertex of "
+    "the tissue in every frame. SCENE is "
     "strip (a camera moves along a band of any length and always sees a part of the same size), "
     "heart, kidney or stomach (a camera circles an organ of 10 cm that deforms and returns to its "
     "shape), or plane (a sheet of 20 cm is warped under a still camera, which sees half of it from "

@@ -30,6 +30,7 @@ const OptionTable<SimulateSettings>& SettingsRows() {
           .Letter('o')
           .File(),
       Row(&S::overwrite, "overwrite", "Replace a sequence that is already in --output.").File(),
+      Row(&S::layout, "layout", "The layout to write; auto is the native one.").File(),
       Row(&S::color, "color", "Also write colour pictures (color/).").File(),
       Nested(&S::options, SyntheticSequenceOptions::Rows()),
   });

@@ -1,6 +1,7 @@
 #include "ceres_ed/simulation/rendering.h"
 
 #include <ceres_ed/geometry/triangle_area.h>
+#include <ceres_ed/util/random.h>
 
 #include <algorithm>
 #include <cmath>
@@ -160,6 +161,43 @@ ColorImage ShadeTissue(const SyntheticRaster& raster,
     }
   }
   return color;
+}
+
+void AddHighlights(const std::vector<std::array<int, 3>>& triangles,
+                   const PinholeCamera& camera,
+                   const Eigen::Vector3d& lamp,
+                   SyntheticView* view) {
+  // The brightness of the mirrored lamp, and how sharply it falls off.
+  constexpr double kStrength = 1.5 * 255.0;
+  constexpr double kSharpness = 250.0;
+  for (int v = 0; v < camera.height; ++v) {
+    for (int u = 0; u < camera.width; ++u) {
+      if (view->raster.fragments(u, v).triangle < 0) continue;
+      const Eigen::Vector3d point =
+          camera.BackProject(u, v, static_cast<double>(view->raster.depth(u, v)));
+      const Eigen::Vector3d normal = view->raster.Interpolate(triangles, view->normals, u, v);
+      const Eigen::Vector3d half = (lamp - point).normalized() - point.normalized();
+      const double product = normal.norm() * half.norm();
+      if (product == 0.0) continue;
+      const double cosine = std::abs(normal.dot(half)) / product;
+      const double light = kStrength * std::pow(cosine, kSharpness);
+      for (std::uint8_t& channel : view->color(u, v)) {
+        channel = static_cast<std::uint8_t>(std::lround(std::min(255.0, channel + light)));
+      }
+    }
+  }
+}
+
+void AddPictureNoise(double sigma, std::uint64_t seed, ColorImage* color) {
+  CHECK_GE(sigma, 0.0);
+  if (sigma == 0.0) return;
+  Random random(seed);
+  for (auto& pixel : color->pixels()) {
+    const double error = sigma * random.Gaussian();
+    for (std::uint8_t& channel : pixel) {
+      channel = static_cast<std::uint8_t>(std::lround(std::clamp(channel + error, 0.0, 255.0)));
+    }
+  }
 }
 
 }  // namespace ceres_ed

@@ -65,6 +65,29 @@ ColorImage ShadeTissue(const SyntheticRaster& raster,
                        const PinholeCamera& camera,
                        const SyntheticTexture& texture);
 
+// What one camera sees: geometry and colour.
+struct SyntheticView {
+  SyntheticRaster raster;
+  // See IncidenceCosines().
+  Image<float> cosines;
+  // The unit normals of the mesh's vertices in the camera frame.
+  std::vector<Eigen::Vector3d> normals;
+  // Empty if no colour was requested.
+  ColorImage color;
+};
+
+// Adds the mirror image of a small lamp on wet tissue (Blinn and Phong) to `view.color`: white
+// where the normal halves the angle between the directions to the camera and to `lamp`, a point in
+// the camera frame in metres.
+void AddHighlights(const std::vector<std::array<int, 3>>& triangles,
+                   const PinholeCamera& camera,
+                   const Eigen::Vector3d& lamp,
+                   SyntheticView* view);
+
+// Adds Gaussian noise of the standard deviation `sigma` >= 0, in levels, to the brightness of each
+// pixel. The same seed gives the same noise.
+void AddPictureNoise(double sigma, std::uint64_t seed, ColorImage* color);
+
 // Adds the errors of a depth camera to the pixels of `depth` that are not 0. The standard deviation
 // is `sigma` >= 0 (metres) for a surface seen straight on. It grows as 1 / cosine, up to ten times.
 // Half of the variance is independent for each pixel, and half is shared with the pixels up to four

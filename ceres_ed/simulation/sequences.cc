@@ -121,6 +121,15 @@ const OptionTable<SyntheticSequenceOptions>& SyntheticSequenceOptions::Rows() {
           .Unit("metres")
           .Special(0, "exact to 0.1 mm")
           .Main(),
+      Row(&O::stereo, "stereo", "Make the pictures of two cameras (left/, right/), without depth.")
+          .Main(),
+      Row(&O::baseline, "baseline", "The distance of the two cameras.")
+          .In(AboveUpTo(0, 1))
+          .Unit("metres")
+          .Main(),
+      Row(&O::picture_noise, "picture_noise", "The standard deviation of stereo pictures.")
+          .In(Between(0, 50))
+          .Unit("levels of 255"),
       Row(&O::period, "period", "The frames in which the tissue moves there and back.")
           .In(AtLeast(2))
           .Unit("frames")
@@ -197,26 +206,61 @@ std::vector<Eigen::Vector3d> SyntheticSequence::TruthPoints(int frame) const {
   return points;
 }
 
+std::optional<StereoRig> SyntheticSequence::rig() const {
+  if (!options_.stereo) return std::nullopt;
+  StereoRig rig;
+  rig.left.pinhole = rig.right.pinhole = camera_;
+  rig.right_from_left.translation = {-options_.baseline, 0.0, 0.0};
+  return rig;
+}
+
+// `deformed` are the points of `patch` in the world frame.
+SyntheticView SyntheticSequence::RenderView(const PointCloud& patch,
+                                            const std::vector<Eigen::Vector3d>& deformed,
+                                            const CameraPose& world_from_camera,
+                                            bool with_color) const {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(deformed.size());
+  for (const Eigen::Vector3d& point : deformed) {
+    points.push_back(world_from_camera.ApplyInverse(point));
+  }
+  SyntheticView view;
+  view.raster = RasterizeMesh(points, patch.triangles, camera_);
+  view.normals = AreaWeightedNormals(points, patch.triangles);
+  view.cosines = IncidenceCosines(view.raster, patch.triangles, view.normals, camera_);
+  if (with_color) {
+    view.color =
+        ShadeTissue(view.raster, patch.triangles, patch.points, view.cosines, camera_, texture_);
+  }
+  return view;
+}
+
 SyntheticFrame SyntheticSequence::Render(int frame, bool with_color) const {
   CHECK(frame >= 0 && frame < num_frames()) << "frame " << frame;
   SyntheticFrame result;
   result.world_from_camera = scene_->WorldFromCamera(frame);
   result.mask = scene_->Mask(frame);
-  // The deformed tissue in the camera frame.
   const PointCloud patch = scene_->RestPatch(frame);
-  std::vector<Eigen::Vector3d> points;
-  points.reserve(patch.size());
-  for (const Eigen::Vector3d& rest : patch.points) {
-    points.push_back(result.world_from_camera.ApplyInverse(scene_->Deform(frame, rest)));
+  std::vector<Eigen::Vector3d> deformed;
+  deformed.reserve(patch.size());
+  for (const Eigen::Vector3d& rest : patch.points) deformed.push_back(scene_->Deform(frame, rest));
+  SyntheticView left =
+      RenderView(patch, deformed, result.world_from_camera, with_color || options_.stereo);
+  const std::uint64_t seed = FrameSeed(options_.seed, frame);
+  if (options_.stereo) {
+    CameraPose right_pose = result.world_from_camera;
+    right_pose.translation += right_pose.rotation * Eigen::Vector3d(options_.baseline, 0.0, 0.0);
+    SyntheticView right = RenderView(patch, deformed, right_pose, true);
+    const Eigen::Vector3d lamp(0.5 * options_.baseline, 0.0, 0.0);
+    AddHighlights(patch.triangles, camera_, lamp, &left);
+    AddHighlights(patch.triangles, camera_, -lamp, &right);
+    AddPictureNoise(options_.picture_noise, seed, &left.color);
+    AddPictureNoise(options_.picture_noise, seed + 1, &right.color);
+    result.right = std::move(right.color);
   }
-  SyntheticRaster raster = RasterizeMesh(points, patch.triangles, camera_);
-  const Image<float> cosines = IncidenceCosines(
-      raster, patch.triangles, AreaWeightedNormals(points, patch.triangles), camera_);
-  if (with_color) {
-    result.color = ShadeTissue(raster, patch.triangles, patch.points, cosines, camera_, texture_);
-  }
-  result.depth = std::move(raster.depth);
-  AddDepthNoise(options_.noise, FrameSeed(options_.seed, frame), cosines, &result.depth);
+  result.color = std::move(left.color);
+  result.depth = std::move(left.raster.depth);
+  if (!options_.stereo) AddDepthNoise(options_.noise, seed, left.cosines, &result.depth);
   for (std::size_t k = 0; k < result.mask.pixels().size(); ++k) {
     if (result.mask.pixels()[k] == 0) result.depth.pixels()[k] = 0.0F;
   }

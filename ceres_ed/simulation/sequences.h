@@ -6,7 +6,9 @@
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/geometry/point_cloud.h>
+#include <ceres_ed/geometry/stereo_rig.h>
 #include <ceres_ed/graph/deformation_state.h>
+#include <ceres_ed/simulation/rendering.h>
 #include <ceres_ed/simulation/scene.h>
 #include <ceres_ed/simulation/texture.h>
 #include <ceres_ed/util/named_values.h>
@@ -15,6 +17,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +55,12 @@ struct SyntheticSequenceOptions {
   // Standard deviation of the depth of a surface seen straight on, in metres, >= 0; with 0 the
   // depth is exact. See AddDepthNoise().
   double noise = 0.25e-3;
+  // Whether pictures of two cameras are rendered instead of a noisy depth, and the distance of the
+  // cameras in metres, in (0, 1].
+  bool stereo = false;
+  double baseline = 0.005;
+  // Standard deviation of the noise of stereo pictures, in levels of 0 to 255, 0 to 50.
+  double picture_noise = 1.5;
   // Number of frames in which the tissue moves there and back, >= 2. The plane only moves there.
   double period = 25.0;
   // Number of vertices of the tissue's mesh, for pictures and truth alike, 500 to 1000000; 0 means
@@ -71,10 +80,12 @@ struct SyntheticSequenceOptions {
 
 // A frame, and the camera pose and mask with which it was made.
 struct SyntheticFrame {
-  // The depth in metres, with noise.
+  // The depth in metres, with noise; with stereo, without.
   DepthImage depth;
-  // The colour picture; empty unless it was requested.
+  // The colour picture; empty unless it was requested. With stereo, that of the left camera.
   ColorImage color;
+  // The picture of the right camera; empty without stereo.
+  ColorImage right;
   // The mask of the pixels that count; empty if all do. Outside the mask the depth is 0.
   MaskImage mask;
   CameraPose world_from_camera;
@@ -94,7 +105,10 @@ class SyntheticSequence {
   explicit SyntheticSequence(const SyntheticSequenceOptions& options);
 
   int num_frames() const { return scene_->num_frames(); }
+  // The camera; with stereo, the left one.
   const PinholeCamera& camera() const { return camera_; }
+  // The two cameras with stereo, otherwise nothing. They are rectified.
+  std::optional<StereoRig> rig() const;
   // Returns the units of stored depth per metre: the unit is 0.1 mm, which reaches to 6.5 m.
   double depth_units_per_metre() const { return 10000.0; }
 
@@ -107,11 +121,17 @@ class SyntheticSequence {
   // these are the points of truth_mesh() itself.
   std::vector<Eigen::Vector3d> TruthPoints(int frame) const;
 
-  // Returns the frame with number 0 <= `frame` < num_frames().
+  // Returns the frame with number 0 <= `frame` < num_frames(). Stereo pictures have a lamp between
+  // the cameras, highlights where the tissue mirrors it, and noise; their depth is exact. Without
+  // stereo the lamp is at the camera and the depth has noise.
   SyntheticFrame Render(int frame, bool with_color = true) const;
 
  private:
   void MakeTruth();
+  SyntheticView RenderView(const PointCloud& patch,
+                           const std::vector<Eigen::Vector3d>& deformed,
+                           const CameraPose& world_from_camera,
+                           bool with_color) const;
 
   SyntheticSequenceOptions options_;
   PinholeCamera camera_;

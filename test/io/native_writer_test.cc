@@ -38,9 +38,9 @@ class NativeSequenceWriterTest : public ::testing::Test {
   }
 
   // Returns frame k, in which the camera and the true surface have moved by k metres along x.
-  NativeFrame Frame(int k) {
+  FrameToWrite Frame(int k) {
     truth_ = {{k + 0.1, 0, 0}, {k + 1.0, 0, 0}, {0.0 + k, 2, 0.3}};
-    NativeFrame frame;
+    FrameToWrite frame;
     frame.depth = &depth_;
     frame.color = &color_;
     frame.world_from_camera.translation.x() = k;
@@ -51,7 +51,7 @@ class NativeSequenceWriterTest : public ::testing::Test {
   bool Exists(const std::string& name) const { return std::filesystem::exists(dir_ / name); }
 
   TemporaryDirectory dir_;
-  NativeSequenceOptions options_;
+  SequenceWriterOptions options_;
   DepthImage depth_;
   ColorImage color_;
   std::vector<Eigen::Vector3d> truth_;
@@ -107,7 +107,7 @@ TEST_F(NativeSequenceWriterTest, WritesMasksThatReadBack) {
   const auto writer = Create(dir_.path());
   MaskImage mask(kWidth, kHeight, 0);
   mask(2, 1) = 1;
-  NativeFrame frame = Frame(0);
+  FrameToWrite frame = Frame(0);
   frame.mask = &mask;
   ASSERT_TRUE(writer->WriteFrame(frame).ok());
   const auto read = ReadMaskImage(dir_ / "mask/000000.png");
@@ -145,7 +145,7 @@ TEST_F(NativeSequenceWriterTest, OverwritesAllOfASequenceAndNothingElse) {
   WriteBytes(dir_ / "depth/preview.png", "mine");
   options_.overwrite = true;
   const auto writer = Create(dir_.path());
-  NativeFrame frame = Frame(0);
+  FrameToWrite frame = Frame(0);
   frame.truth = nullptr;
   frame.color = nullptr;
   ASSERT_TRUE(writer->WriteFrame(frame).ok());

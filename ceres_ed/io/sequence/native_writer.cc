@@ -1,6 +1,7 @@
 #include "ceres_ed/io/sequence/native_writer.h"
 
 #include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/sequence/stereo_file.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -15,8 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPictureFolders[] = {"color", "depth", "mask"};
-constexpr const char* kFiles[] = {"camera.txt", "poses.txt", kTruthMeshName, kTruthVerticesName};
+constexpr const char* kPictureFolders[] = {"color", "depth", "left", "right", "mask"};
+constexpr const char* kFiles[] = {
+    "camera.txt", "stereo.txt", "poses.txt", kTruthMeshName, kTruthVerticesName};
 
 std::string PictureName(int frame) {
   char name[32];
@@ -90,22 +92,35 @@ ColorImage MaskPicture(const MaskImage& mask) {
 bool HoldsNativeSequence(const std::string& directory) { return !SequenceFiles(directory).empty(); }
 
 NativeSequenceWriter::NativeSequenceWriter(std::string directory,
-                                           const NativeSequenceOptions& options)
+                                           const SequenceWriterOptions& options)
     : directory_(std::move(directory)), options_(options) {}
 
 StatusOr<std::unique_ptr<NativeSequenceWriter>> NativeSequenceWriter::Create(
-    const std::string& directory, const NativeSequenceOptions& options) {
+    const std::string& directory, const SequenceWriterOptions& options) {
   const fs::path root(directory);
   if (Status status = CheckFolder(root, options.overwrite); !status.ok()) return status;
-  if (Status status = MakeFolder(root / "depth"); !status.ok()) return status;
-  Status status = WriteCameraFile((root / "camera.txt").string(), options.camera);
+  Status status = MakeFolder(root / (options.rig.has_value() ? "left" : "depth"));
+  if (!status.ok()) return status;
+  status = options.rig.has_value()
+               ? WriteStereoFile((root / "stereo.txt").string(), *options.rig)
+               : WriteCameraFile((root / "camera.txt").string(), options.camera);
   if (!status.ok()) return status;
   std::unique_ptr<NativeSequenceWriter> writer(new NativeSequenceWriter(directory, options));
   return StatusOr<std::unique_ptr<NativeSequenceWriter>>(std::move(writer));
 }
 
-Status NativeSequenceWriter::WriteFrame(const NativeFrame& frame) {
-  CHECK(frame.depth != nullptr);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateNativeWriter(const std::string& directory,
+                                                             const SequenceWriterOptions& options) {
+  StatusOr<std::unique_ptr<NativeSequenceWriter>> writer =
+      NativeSequenceWriter::Create(directory, options);
+  if (!writer.ok()) return writer.status();
+  return std::unique_ptr<SequenceWriter>(*std::move(writer));
+}
+
+Status NativeSequenceWriter::WriteFrame(const FrameToWrite& frame) {
+  const bool is_stereo = options_.rig.has_value();
+  CHECK(is_stereo || frame.depth != nullptr);
+  CHECK(!is_stereo || (frame.color != nullptr && frame.right != nullptr));
   const auto check_size = [this](const auto& image) {
     CHECK_EQ(image.width(), options_.camera.camera.width);
     CHECK_EQ(image.height(), options_.camera.camera.height);
@@ -120,16 +135,22 @@ Status NativeSequenceWriter::WriteFrame(const NativeFrame& frame) {
     return WriteColorImage((root / folder / name).string(), picture);
   };
   if (frame.color != nullptr && !frame.color->empty()) {
-    if (Status status = write_picture("color", *frame.color); !status.ok()) return status;
+    if (Status status = write_picture(is_stereo ? "left" : "color", *frame.color); !status.ok())
+      return status;
   }
   if (frame.mask != nullptr && !frame.mask->empty()) {
     Status status = write_picture("mask", MaskPicture(*frame.mask));
     if (!status.ok()) return status;
   }
-  // Depth is written last, since a frame without depth does not count as a frame.
-  check_size(*frame.depth);
-  Status status = WriteDepthImage(
-      (root / "depth" / name).string(), *frame.depth, options_.camera.depth_units_per_metre);
+  // Depth or the right picture is written last, since without it a frame does not count as one.
+  Status status = Status::Ok();
+  if (is_stereo) {
+    status = write_picture("right", *frame.right);
+  } else {
+    check_size(*frame.depth);
+    status = WriteDepthImage(
+        (root / "depth" / name).string(), *frame.depth, options_.camera.depth_units_per_metre);
+  }
   if (!status.ok()) return status;
   if (frame.truth != nullptr) {
     status = WriteTruth(*frame.truth);

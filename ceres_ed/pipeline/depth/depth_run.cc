@@ -94,7 +94,7 @@ class DepthRun {
       Status status = Open(frame->depth);
       if (!status.ok()) return Outcome::BadInput(status);
     }
-    NativeFrame native;
+    FrameToWrite native;
     native.number = frame->number;
     native.depth = &frame->depth;
     native.color = &frame->color;
@@ -114,7 +114,7 @@ class DepthRun {
   }
 
   Status Open(const DepthImage& first) {
-    NativeSequenceOptions options;
+    SequenceWriterOptions options;
     options.camera.camera = source_.camera();
     options.camera.depth_units_per_metre = settings_.units_per_metre;
     if (settings_.units_per_metre == 0.0) {

@@ -1,6 +1,7 @@
 #include "ceres_ed/pipeline/simulate/simulate_run.h"
 
 #include <ceres_ed/io/sequence/native_writer.h>
+#include <ceres_ed/io/sequence/sequence_writer.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/util/timer.h>
 #include <ceres_ed/version.h>
@@ -28,7 +29,7 @@ Status WriteInfo(const SimulateSettings& settings, const SyntheticSequence& sequ
 // Writes the frames until the observer asks to stop.
 Status WriteFrames(const SyntheticSequence& sequence,
                    bool color,
-                   NativeSequenceWriter* writer,
+                   SequenceWriter* writer,
                    RunObserver* observer) {
   const Timer clock;
   const bool with_truth = !sequence.truth_mesh().empty();
@@ -36,9 +37,10 @@ Status WriteFrames(const SyntheticSequence& sequence,
     const SyntheticFrame frame = sequence.Render(k, color);
     std::vector<Eigen::Vector3d> truth;
     if (with_truth) truth = sequence.TruthPoints(k);
-    NativeFrame native;
+    FrameToWrite native;
     native.depth = &frame.depth;
     native.color = &frame.color;
+    native.right = &frame.right;
     native.mask = &frame.mask;
     native.world_from_camera = frame.world_from_camera;
     native.truth = with_truth ? &truth : nullptr;
@@ -53,6 +55,13 @@ Status WriteFrames(const SyntheticSequence& sequence,
 }  // namespace
 
 Outcome RunSimulation(const SimulateSettings& settings, SimulateObserver* observer) {
+  const bool is_stereo = settings.options.stereo;
+  const SequenceLayout* const format = FindSequenceLayout(settings.layout, is_stereo);
+  if (format == nullptr) {
+    return Outcome::Usage("--layout=" + NameOf(settings.layout) + " can't be written " +
+                          (is_stereo ? "with" : "without") + " --stereo, expected one of " +
+                          ListSequenceLayouts(is_stereo, ", "));
+  }
   if (!settings.overwrite && HoldsNativeSequence(settings.output)) {
     return Outcome::BadInput(Status::Error(
         settings.output + ": holds a sequence already, expected an empty folder or --overwrite"));
@@ -61,11 +70,12 @@ Outcome RunSimulation(const SimulateSettings& settings, SimulateObserver* observ
   observer->OnProgress(0, 1, "meshing the tissue");
   const SyntheticSequence sequence(settings.options);
   if (!sequence.truth_note().empty()) observer->OnWarning(sequence.truth_note());
-  NativeSequenceOptions layout;
+  SequenceWriterOptions layout;
+  layout.rig = sequence.rig();
   layout.camera = {sequence.camera(), sequence.depth_units_per_metre()};
   layout.truth_triangles = sequence.truth_mesh().triangles;
   layout.overwrite = settings.overwrite;
-  const auto writer = NativeSequenceWriter::Create(settings.output, layout);
+  const auto writer = format->create(settings.output, layout);
   if (!writer.ok()) return Outcome::BadInput(writer.status());
 
   Status status = WriteFrames(sequence, settings.color, writer->get(), observer);

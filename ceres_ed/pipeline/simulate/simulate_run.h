@@ -2,6 +2,7 @@
 #ifndef CERES_ED_PIPELINE_SIMULATE_SIMULATE_RUN_H_
 #define CERES_ED_PIPELINE_SIMULATE_SIMULATE_RUN_H_
 
+#include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/pipeline/outcome.h>
 #include <ceres_ed/pipeline/run_flag.h>
 #include <ceres_ed/pipeline/run_observer.h>
@@ -20,6 +21,8 @@ struct SimulateSettings {
   std::string output;
   // Whether a sequence that is already in `output` is replaced.
   bool overwrite = false;
+  // The layout that is written; automatic is the native one.
+  SequenceFormat layout = SequenceFormat::kAuto;
   // Whether colour images (color/) are written, too.
   bool color = true;
   // The flags for info.json. `output`, `overwrite` and `quiet` are left out of it, because the
@@ -39,7 +42,7 @@ class SimulateObserver : public RunObserver {
   virtual void OnEnd(const SimulatedSequence& /*sequence*/) {}
 };
 
-// Writes the sequence in the native layout, with its truth. Returns how the run ended.
+// Writes the sequence with its truth. Returns how the run ended.
 Outcome RunSimulation(const SimulateSettings& settings, SimulateObserver* observer);
 
 }  // namespace ceres_ed
