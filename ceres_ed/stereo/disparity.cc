@@ -62,6 +62,95 @@ double Quantile(std::vector<float>* values, double share) {
   return static_cast<double>((*values)[static_cast<std::size_t>(rank)]);
 }
 
+// Returns a picture with less noise, in floats.
+cv::Mat Smoothed(const GrayImage& image) {
+  cv::Mat smooth;
+  cv::GaussianBlur(Wrap(image, CV_8UC1), smooth, cv::Size(3, 3), 0.7);
+  smooth.convertTo(smooth, CV_32F);
+  return smooth;
+}
+
+// Returns the derivative along the row, per pixel.
+cv::Mat RowGradient(const cv::Mat& image) {
+  cv::Mat gradient;
+  cv::Sobel(image, gradient, CV_32F, 1, 0, 1, 0.5);
+  return gradient;
+}
+
+// Moments of g and e = L - R over the window of each pixel. R is the right picture as the left
+// camera would see it, by the disparities; g is the mean of the gradient of both, or that of the
+// left one. Pixels without a disparity do not count.
+class WindowSums {
+ public:
+  struct Moments {
+    float gg = 0.0F;
+    float ge = 0.0F;
+    float ee = 0.0F;
+  };
+
+  WindowSums(const cv::Mat& left,
+             const cv::Mat& left_gradient,
+             const cv::Mat& right,
+             const cv::Mat& right_gradient,
+             const DisparityImage& disparity,
+             bool mean_of_gradients = true) {
+    const int width = disparity.width(), height = disparity.height();
+    cv::Mat columns(height, width, CV_32F), rows(height, width, CV_32F);
+    for (int v = 0; v < height; ++v) {
+      for (int u = 0; u < width; ++u) {
+        const float d = disparity(u, v);
+        columns.at<float>(v, u) = d == kNoDisparity ? 0.0F : static_cast<float>(u) - d;
+        rows.at<float>(v, u) = static_cast<float>(v);
+      }
+    }
+    cv::Mat warped, gradient;
+    cv::remap(right, warped, columns, rows, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
+    if (mean_of_gradients) {
+      cv::remap(right_gradient, gradient, columns, rows, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+      gradient = 0.5 * (gradient + left_gradient);
+    } else {
+      gradient = left_gradient;
+    }
+    cv::Mat first(height, width, CV_32FC3), second(height, width, CV_32FC3);
+    for (int v = 0; v < height; ++v) {
+      const float* const l = left.ptr<float>(v);
+      const float* const r = warped.ptr<float>(v);
+      const float* const slope = gradient.ptr<float>(v);
+      float* const a = first.ptr<float>(v);
+      float* const b = second.ptr<float>(v);
+      for (int u = 0; u < width; ++u) {
+        const float n = disparity(u, v) != kNoDisparity ? 1.0F : 0.0F;
+        const float g = n * slope[u], e = n * (l[u] - r[u]);
+        a[3 * u] = n;
+        a[3 * u + 1] = g;
+        a[3 * u + 2] = e;
+        b[3 * u] = g * g;
+        b[3 * u + 1] = g * e;
+        b[3 * u + 2] = e * e;
+      }
+    }
+    const cv::Size window(kWidth, kWidth);
+    const cv::Point center(-1, -1);
+    cv::boxFilter(first, first_, CV_32F, window, center, false, cv::BORDER_CONSTANT);
+    cv::boxFilter(second, second_, CV_32F, window, center, false, cv::BORDER_CONSTANT);
+  }
+
+  // Returns whether at least half of the window counts.
+  bool Has(int u, int v) const { return first_.ptr<float>(v)[3 * u] >= 0.5F * kWidth * kWidth; }
+
+  // Returns the variances and the covariance over the window.
+  Moments At(int u, int v) const {
+    const float* const a = first_.ptr<float>(v) + 3 * u;
+    const float* const b = second_.ptr<float>(v) + 3 * u;
+    const float n = a[0], g = a[1] / n, e = a[2] / n;
+    return {b[0] / n - g * g, b[1] / n - g * e, b[2] / n - e * e};
+  }
+
+ private:
+  static constexpr int kWidth = 9;
+  cv::Mat first_, second_;
+};
+
 }  // namespace
 
 DisparityImage MatchRows(const GrayImage& left,
@@ -155,65 +244,56 @@ DisparityRange FindRange(const GrayImage& left,
 
 void RefineDisparity(const GrayImage& left, const GrayImage& right, DisparityImage* disparity) {
   constexpr int kRounds = 2;
-  constexpr int kWindow = 9;
-  // The least mean square of the gradient, in levels per pixel.
+  // The least variance of the gradient, in levels per pixel.
   constexpr float kLeastTexture = 1.0F;
-  constexpr float kFarthest = 1.0F;
-  const int width = left.width(), height = left.height();
-  cv::Mat smooth_left, smooth_right, left_gradient, right_gradient;
-  const cv::Size blur(3, 3);
-  cv::GaussianBlur(Wrap(left, CV_8UC1), smooth_left, blur, 0.7);
-  cv::GaussianBlur(Wrap(right, CV_8UC1), smooth_right, blur, 0.7);
-  smooth_left.convertTo(smooth_left, CV_32F);
-  smooth_right.convertTo(smooth_right, CV_32F);
-  cv::Sobel(smooth_left, left_gradient, CV_32F, 1, 0, 1, 0.5);
-  cv::Sobel(smooth_right, right_gradient, CV_32F, 1, 0, 1, 0.5);
+  constexpr float kFarthest = 0.5F;
+  constexpr float kLargestStep = 0.5F;
+  const cv::Mat smooth_left = Smoothed(left), smooth_right = Smoothed(right);
+  const cv::Mat left_gradient = RowGradient(smooth_left);
+  const cv::Mat right_gradient = RowGradient(smooth_right);
   const DisparityImage given = *disparity;
-  cv::Mat columns(height, width, CV_32F), rows(height, width, CV_32F);
-  cv::Mat warped, warped_gradient;
-  cv::Mat terms(height, width, CV_32FC(4)), counts(height, width, CV_32F), sums, numbers;
   for (int round = 0; round < kRounds; ++round) {
-    // The right picture as the left camera would see it.
-    for (int v = 0; v < height; ++v) {
-      for (int u = 0; u < width; ++u) {
-        const float d = (*disparity)(u, v);
-        columns.at<float>(v, u) = d == kNoDisparity ? -1e4F : static_cast<float>(u) - d;
-        rows.at<float>(v, u) = static_cast<float>(v);
-      }
-    }
-    cv::remap(smooth_right, warped, columns, rows, cv::INTER_CUBIC, cv::BORDER_REPLICATE);
-    cv::remap(right_gradient, warped_gradient, columns, rows, cv::INTER_LINEAR);
-    for (int v = 0; v < height; ++v) {
-      float* const term = terms.ptr<float>(v);
-      for (int u = 0; u < width; ++u) {
-        const bool known = (*disparity)(u, v) != kNoDisparity;
-        const float g =
-            known ? 0.5F * (left_gradient.at<float>(v, u) + warped_gradient.at<float>(v, u)) : 0.0F;
-        const float e = known ? smooth_left.at<float>(v, u) - warped.at<float>(v, u) : 0.0F;
-        term[4 * u] = g;
-        term[4 * u + 1] = e;
-        term[4 * u + 2] = g * g;
-        term[4 * u + 3] = g * e;
-        counts.at<float>(v, u) = known ? 1.0F : 0.0F;
-      }
-    }
-    const cv::Size window(kWindow, kWindow);
-    cv::boxFilter(terms, sums, CV_32F, window, cv::Point(-1, -1), false, cv::BORDER_CONSTANT);
-    cv::boxFilter(counts, numbers, CV_32F, window, cv::Point(-1, -1), false, cv::BORDER_CONSTANT);
-    for (int v = 0; v < height; ++v) {
-      const float* const sum = sums.ptr<float>(v);
-      for (int u = 0; u < width; ++u) {
+    const WindowSums sums(smooth_left, left_gradient, smooth_right, right_gradient, *disparity);
+    for (int v = 0; v < left.height(); ++v) {
+      for (int u = 0; u < left.width(); ++u) {
         float& d = (*disparity)(u, v);
-        const float n = numbers.at<float>(v, u);
-        if (d == kNoDisparity || n < 0.5F * kWindow * kWindow) continue;
-        const float* const s = sum + 4 * u;
-        const float texture = s[2] - s[0] * s[0] / n;
-        if (texture < kLeastTexture * n) continue;
-        // L = R(u - d - s) = R(u - d) - s g, so that e = -s g + c.
-        const float shift = -(s[3] - s[0] * s[1] / n) / texture;
-        const float moved = d + std::clamp(shift, -0.5F, 0.5F);
+        if (d == kNoDisparity || !sums.Has(u, v)) continue;
+        const WindowSums::Moments m = sums.At(u, v);
+        if (m.gg < kLeastTexture) continue;
+        // L = R(u - d - s) = R(u - d) - s g, so that e = L - R(u - d) = -s g + c.
+        const float moved = d - std::clamp(m.ge / m.gg, -kLargestStep, kLargestStep);
         if (std::abs(moved - given(u, v)) <= kFarthest) d = moved;
       }
+    }
+  }
+}
+
+void LeaveOutUnlike(const GrayImage& left,
+                    const GrayImage& right,
+                    double least,
+                    DisparityImage* disparity) {
+  const cv::Mat smooth_left = Smoothed(left), smooth_right = Smoothed(right);
+  // With the picture itself in place of the gradient, the moments are those of L and of L - R.
+  const WindowSums sums(smooth_left,
+                        smooth_left,
+                        smooth_right,
+                        smooth_right,
+                        *disparity,
+                        /*mean_of_gradients=*/false);
+  const auto bound = static_cast<float>(least);
+  for (int v = 0; v < left.height(); ++v) {
+    for (int u = 0; u < left.width(); ++u) {
+      float& d = (*disparity)(u, v);
+      if (d == kNoDisparity) continue;
+      if (!sums.Has(u, v)) {
+        d = kNoDisparity;
+        continue;
+      }
+      // cov(L, R) = var(L) - cov(L, L - R), var(R) = var(L) - 2 cov(L, L - R) + var(L - R).
+      const WindowSums::Moments m = sums.At(u, v);
+      const float covariance = m.gg - m.ge;
+      const float product = m.gg * std::max(0.0F, m.gg - 2.0F * m.ge + m.ee);
+      if (covariance < bound * std::sqrt(product) || product == 0.0F) d = kNoDisparity;
     }
   }
 }

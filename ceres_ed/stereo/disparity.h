@@ -51,6 +51,14 @@ DisparityRange FindRange(const GrayImage& left,
 // pixel whose shift is not determined, or is larger than a pixel, keeps its disparity.
 void RefineDisparity(const GrayImage& left, const GrayImage& right, DisparityImage* disparity);
 
+// Leaves out pixels whose windows in the two pictures look different: the correlation of their
+// brightness is less than `least`, -1 to 1. In a dark or even part of the pictures there is only
+// noise, which has a correlation of 0.
+void LeaveOutUnlike(const GrayImage& left,
+                    const GrayImage& right,
+                    double least,
+                    DisparityImage* disparity);
+
 // Smooths within `radius` pixels, but not across edges of more than about a pixel.
 void SmoothDisparity(int radius, DisparityImage* disparity);
 

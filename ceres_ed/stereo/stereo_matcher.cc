@@ -78,6 +78,13 @@ DisparityRange StereoMatcher::RangeOf(const GrayImage& left,
   return found;
 }
 
+void StereoMatcher::Polish(const GrayImage& left,
+                           const GrayImage& right,
+                           DisparityImage* disparity) const {
+  if (options_.refine) RefineDisparity(left, right, disparity);
+  if (options_.correlation > -1.0) LeaveOutUnlike(left, right, options_.correlation, disparity);
+}
+
 DisparityImage StereoMatcher::Compare(const GrayImage& left,
                                       const GrayImage& right,
                                       const DisparityRange& range) const {
@@ -86,11 +93,11 @@ DisparityImage StereoMatcher::Compare(const GrayImage& left,
     const int min = static_cast<int>(std::floor(0.5 * range.min));
     const GrayImage half_left = HalfSize(left), half_right = HalfSize(right);
     DisparityImage half = MatchRows(half_left, half_right, {min, range.count / 2 + 2}, options_);
-    if (options_.refine) RefineDisparity(half_left, half_right, &half);
+    Polish(half_left, half_right, &half);
     disparity = DoubleSize(half, left.width(), left.height());
   } else {
     disparity = MatchRows(left, right, range, options_);
-    if (options_.refine) RefineDisparity(left, right, &disparity);
+    Polish(left, right, &disparity);
   }
   if (options_.smoothing > 0) SmoothDisparity(options_.smoothing, &disparity);
   return disparity;

@@ -64,6 +64,8 @@ class StereoMatcher {
   DisparityRange RangeOf(const GrayImage& left,
                          const GrayImage& right,
                          const MaskImage& left_mask) const;
+  // Refines disparities, and leaves out those whose windows differ.
+  void Polish(const GrayImage& left, const GrayImage& right, DisparityImage* disparity) const;
   // Returns the disparities of a rectified pair.
   DisparityImage Compare(const GrayImage& left,
                          const GrayImage& right,

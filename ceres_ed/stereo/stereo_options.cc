@@ -30,6 +30,11 @@ const OptionTable<StereoOptions>& StereoOptions::Rows() {
           .In(AtLeast(-1))
           .Special(-1, "no check")
           .Unit("pixels"),
+      Row(&O::correlation,
+          "correlation",
+          "Leave out a pixel if the windows around it and its match are less alike.")
+          .In(Between(-1, 1))
+          .Special(-1, "no check"),
       Row(&O::speckle_size, "speckle_size", "Leave out connected parts that are smaller.")
           .In(AtLeast(0))
           .Unit("pixels"),

@@ -41,6 +41,9 @@ struct StereoOptions {
   // A pixel is left out if the match of its match is more than this many pixels away from it;
   // -1: no check.
   int left_right = 1;
+  // A pixel is left out if the correlation of its window in the two pictures is less than this; -1
+  // (all are kept) to 1.
+  double correlation = 0.5;
   // Connected parts with fewer pixels than this are left out; >= 0.
   int speckle_size = 200;
   // Pixels with a channel of this value or more are left out, in both pictures; 1 to 256. 256:
