@@ -54,13 +54,12 @@ Image<float> Smooth(const Image<float>& white) {
 
 }  // namespace
 
-void AddDepthNoise(double sigma,
+void AddDepthNoise(const DepthNoise& noise,
                    std::uint64_t seed,
                    const Image<float>& cosines,
                    DepthImage* depth) {
-  CHECK_GE(sigma, 0.0);
   CHECK(cosines.width() == depth->width() && cosines.height() == depth->height());
-  if (sigma == 0.0 || depth->empty()) return;
+  if (!noise.known() || depth->empty()) return;
   Random random(seed);
   const Image<float> own = WhiteNoise(depth->width(), depth->height(), &random);
   const Image<float> shared =
@@ -78,6 +77,7 @@ void AddDepthNoise(double sigma,
         continue;
       }
       const double unit = std::sqrt(0.5) * static_cast<double>(own(u, v) + shared(u, v));
+      const double sigma = noise.At(static_cast<double>(value));
       const double error = sigma / std::max(cosine, kDropOutAll) * unit;
       value = static_cast<float>(std::max(0.0, static_cast<double>(value) + error));
     }

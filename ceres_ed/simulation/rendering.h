@@ -2,6 +2,7 @@
 #ifndef CERES_ED_SIMULATION_RENDERING_H_
 #define CERES_ED_SIMULATION_RENDERING_H_
 
+#include <ceres_ed/geometry/depth_noise.h>
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/simulation/texture.h>
@@ -89,12 +90,12 @@ void AddHighlights(const std::vector<std::array<int, 3>>& triangles,
 void AddPictureNoise(double sigma, std::uint64_t seed, ColorImage* color);
 
 // Adds the errors of a depth camera to the pixels of `depth` that are not 0. The standard deviation
-// is `sigma` >= 0 (metres) for a surface seen straight on. It grows as 1 / cosine, up to ten times.
-// Half of the variance is independent for each pixel, and half is shared with the pixels up to four
-// pixels away (the correlation between neighbours in a row is 0.4). Below a cosine of 0.35 a
-// growing share of the pixels drops out, and at 0.1 all do. A sigma of 0 changes nothing. The same
-// seed gives the same errors.
-void AddDepthNoise(double sigma,
+// is that of `noise` (metres) for a surface seen straight on. It grows as 1 / cosine, up to ten
+// times. Half of the variance is independent for each pixel, and half is shared with the pixels up
+// to four pixels away (the correlation between neighbours in a row is 0.4). Below a cosine of 0.35
+// a growing share of the pixels drops out, and at 0.1 all do. A noise of 0 changes nothing. The
+// same seed gives the same errors.
+void AddDepthNoise(const DepthNoise& noise,
                    std::uint64_t seed,
                    const Image<float>& cosines,
                    DepthImage* depth);

@@ -121,6 +121,11 @@ const OptionTable<SyntheticSequenceOptions>& SyntheticSequenceOptions::Rows() {
           .Unit("metres")
           .Special(0, "exact to 0.1 mm")
           .Main(),
+      Row(&O::disparity_noise,
+          "disparity_noise",
+          "Further noise, as of a stereo camera: this times z^2 / (f --baseline).")
+          .In(AtLeast(0))
+          .Unit("pixels"),
       Row(&O::stereo, "stereo", "Make the pictures of two cameras (left/, right/), without depth.")
           .Main(),
       Row(&O::baseline, "baseline", "The distance of the two cameras.")
@@ -246,6 +251,8 @@ SyntheticFrame SyntheticSequence::Render(int frame, bool with_color) const {
   for (const Eigen::Vector3d& rest : patch.points) deformed.push_back(scene_->Deform(frame, rest));
   SyntheticView left =
       RenderView(patch, deformed, result.world_from_camera, with_color || options_.stereo);
+  const DepthNoise noise{options_.noise,
+                         options_.disparity_noise / (camera_.fx * options_.baseline)};
   const std::uint64_t seed = FrameSeed(options_.seed, frame);
   if (options_.stereo) {
     CameraPose right_pose = result.world_from_camera;
@@ -260,7 +267,7 @@ SyntheticFrame SyntheticSequence::Render(int frame, bool with_color) const {
   }
   result.color = std::move(left.color);
   result.depth = std::move(left.raster.depth);
-  if (!options_.stereo) AddDepthNoise(options_.noise, seed, left.cosines, &result.depth);
+  if (!options_.stereo) AddDepthNoise(noise, seed, left.cosines, &result.depth);
   for (std::size_t k = 0; k < result.mask.pixels().size(); ++k) {
     if (result.mask.pixels()[k] == 0) result.depth.pixels()[k] = 0.0F;
   }

@@ -55,6 +55,9 @@ struct SyntheticSequenceOptions {
   // Standard deviation of the depth of a surface seen straight on, in metres, >= 0; with 0 the
   // depth is exact. See AddDepthNoise().
   double noise = 0.25e-3;
+  // Standard deviation of the disparity of a stereo camera with this baseline, in pixels, >= 0: its
+  // noise, z^2 / (f b) times this, is added to that of `noise`.
+  double disparity_noise = 0.0;
   // Whether pictures of two cameras are rendered instead of a noisy depth, and the distance of the
   // cameras in metres, in (0, 1].
   bool stereo = false;

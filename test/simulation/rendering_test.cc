@@ -167,7 +167,7 @@ class DepthNoise : public ::testing::Test {
  protected:
   DepthImage Noisy(double sigma, std::uint64_t seed, float cosine) const {
     DepthImage depth(kSize, kSize, 1.0F);
-    AddDepthNoise(sigma, seed, Image<float>(kSize, kSize, cosine), &depth);
+    AddDepthNoise({sigma, 0.0}, seed, Image<float>(kSize, kSize, cosine), &depth);
     return depth;
   }
 
