@@ -11,7 +11,7 @@ const ceres_ed::ProgramInfo kProgram = {
     "layout: depth/, color/, camera.txt, and mask/, poses.txt and truth if the sequence has them. "
     "The camera is the rectified left one. ed_slam does the same while it tracks, and needs no "
     "ed_depth. Pixels without a match, in highlights, or at infinity have depth 0.",
-    "ed_depth recordings/heart --output=heart_depth --half_resolution",
+    "ed_depth recordings/heart --output=heart_depth --reduce=2",
     1,
     1};
 

@@ -298,6 +298,38 @@ void LeaveOutUnlike(const GrayImage& left,
   }
 }
 
+void LeaveOutEdges(int margin, DisparityImage* disparity) {
+  constexpr float kJump = 3.0F;
+  // Holes with fewer pixels than this are no edge.
+  constexpr int kSmallHole = 400;
+  const int width = disparity->width(), height = disparity->height();
+  // Holes that are not small keep the value 0, all else is 255.
+  cv::Mat inside(height, width, CV_16SC1);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      inside.at<short>(v, u) = (*disparity)(u, v) == kNoDisparity ? 0 : 255;
+    }
+  }
+  cv::filterSpeckles(inside, 255, kSmallHole, 1);
+  MaskImage kept(width, height, 255);
+  const auto differ = [&](int u, int v, int other_u, int other_v) {
+    const float a = (*disparity)(u, v), b = (*disparity)(other_u, other_v);
+    return a != kNoDisparity && b != kNoDisparity && std::abs(a - b) > kJump;
+  };
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      const bool is_edge = inside.at<short>(v, u) == 0 ||
+                           (u + 1 < width && differ(u, v, u + 1, v)) ||
+                           (v + 1 < height && differ(u, v, u, v + 1));
+      if (is_edge) kept(u, v) = 0;
+    }
+  }
+  Shrink(margin, &kept);
+  for (std::size_t i = 0; i < kept.pixels().size(); ++i) {
+    if (kept.pixels()[i] == 0) disparity->pixels()[i] = kNoDisparity;
+  }
+}
+
 void SmoothDisparity(int radius, DisparityImage* disparity) {
   constexpr double kEdge = 1.0;
   cv::Mat smooth;

@@ -59,6 +59,11 @@ void LeaveOutUnlike(const GrayImage& left,
                     double least,
                     DisparityImage* disparity);
 
+// Leaves out pixels within `margin` pixels of a jump of more than a pixel, or of a part without
+// disparity that is not small: there a window lies on two surfaces, and what is nearer seems wider
+// than it is.
+void LeaveOutEdges(int margin, DisparityImage* disparity);
+
 // Smooths within `radius` pixels, but not across edges of more than about a pixel.
 void SmoothDisparity(int radius, DisparityImage* disparity);
 

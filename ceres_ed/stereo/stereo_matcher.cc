@@ -83,24 +83,32 @@ void StereoMatcher::Polish(const GrayImage& left,
                            DisparityImage* disparity) const {
   if (options_.refine) RefineDisparity(left, right, disparity);
   if (options_.correlation > -1.0) LeaveOutUnlike(left, right, options_.correlation, disparity);
+  if (options_.edge_margin > 0) LeaveOutEdges(options_.edge_margin, disparity);
 }
 
 DisparityImage StereoMatcher::Compare(const GrayImage& left,
                                       const GrayImage& right,
-                                      const DisparityRange& range) const {
-  DisparityImage disparity;
-  if (options_.half_resolution && left.width() >= 2 && left.height() >= 2) {
+                                      const DisparityRange& range,
+                                      int scale) const {
+  if (scale > 1 && left.width() >= 2 && left.height() >= 2) {
     const int min = static_cast<int>(std::floor(0.5 * range.min));
-    const GrayImage half_left = HalfSize(left), half_right = HalfSize(right);
-    DisparityImage half = MatchRows(half_left, half_right, {min, range.count / 2 + 2}, options_);
-    Polish(half_left, half_right, &half);
-    disparity = DoubleSize(half, left.width(), left.height());
-  } else {
-    disparity = MatchRows(left, right, range, options_);
-    Polish(left, right, &disparity);
+    const DisparityImage half =
+        Compare(HalfSize(left), HalfSize(right), {min, range.count / 2 + 2}, scale / 2);
+    return DoubleSize(half, left.width(), left.height());
   }
+  DisparityImage disparity = MatchRows(left, right, range, options_);
+  Polish(left, right, &disparity);
   if (options_.smoothing > 0) SmoothDisparity(options_.smoothing, &disparity);
   return disparity;
+}
+
+int StereoMatcher::Scale() const {
+  constexpr int kLargestWidth = 1024;
+  constexpr int kLargestScale = 4;
+  if (options_.reduce > 0) return options_.reduce;
+  int scale = 1;
+  while (scale < kLargestScale && camera().width > scale * kLargestWidth) scale *= 2;
+  return scale;
 }
 
 StereoDepth StereoMatcher::Match(const ColorImage& left,
@@ -116,7 +124,7 @@ StereoDepth StereoMatcher::Match(const ColorImage& left,
   LeaveOutHighlights(pair.right, options_.highlight, &pair.right_mask);
   const GrayImage left_gray = GrayOf(pair.left), right_gray = GrayOf(pair.right);
   result.range = RangeOf(left_gray, right_gray, pair.left_mask);
-  const DisparityImage disparity = Compare(left_gray, right_gray, result.range);
+  const DisparityImage disparity = Compare(left_gray, right_gray, result.range, Scale());
 
   const double least = kLeastDisparity * options_.disparity_sigma;
   result.depth = DepthImage(camera.width, camera.height, 0.0F);

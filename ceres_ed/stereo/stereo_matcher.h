@@ -66,10 +66,14 @@ class StereoMatcher {
                          const MaskImage& left_mask) const;
   // Refines disparities, and leaves out those whose windows differ.
   void Polish(const GrayImage& left, const GrayImage& right, DisparityImage* disparity) const;
-  // Returns the disparities of a rectified pair.
+  // Returns the disparities of a rectified pair, found in pictures `scale` (1, 2 or 4) times
+  // smaller.
   DisparityImage Compare(const GrayImage& left,
                          const GrayImage& right,
-                         const DisparityRange& range) const;
+                         const DisparityRange& range,
+                         int scale) const;
+  // Returns how many times smaller pictures are compared.
+  int Scale() const;
 
   std::unique_ptr<const Rectification> rectification_;
   StereoOptions options_;

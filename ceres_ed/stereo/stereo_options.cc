@@ -35,12 +35,18 @@ const OptionTable<StereoOptions>& StereoOptions::Rows() {
           "Leave out a pixel if the windows around it and its match are less alike.")
           .In(Between(-1, 1))
           .Special(-1, "no check"),
+      Row(&O::edge_margin, "edge_margin", "Leave out pixels this near to a jump of the depth.")
+          .In(Between(0, 20))
+          .Unit("pixels"),
       Row(&O::speckle_size, "speckle_size", "Leave out connected parts that are smaller.")
           .In(AtLeast(0))
           .Unit("pixels"),
       Row(&O::highlight, "highlight", "Leave out pixels that are as bright as this (256: none).")
           .In(Between(1, 256)),
-      Row(&O::half_resolution, "half_resolution", "Compare pictures of half the size.").Main(),
+      Row(&O::reduce, "reduce", "Compare pictures that are 1, 2 or 4 times smaller.")
+          .In(Between(0, 4))
+          .Special(0, "automatic: at most 1024 columns")
+          .Main(),
       Row(&O::refine, "refine", "Refine disparities to fractions of a pixel."),
       Row(&O::smoothing, "smoothing", "Radius of a filter that smooths depth but not its edges.")
           .In(Between(0, 20))
@@ -61,6 +67,10 @@ bool StereoOptions::IsValid(std::string* error) const {
   if (!Rows().Check(*this, error)) return false;
   if (window % 2 == 0) {
     *error = "window is " + std::to_string(window) + ", expected an odd number of pixels";
+    return false;
+  }
+  if (reduce == 3) {
+    *error = "reduce is 3, expected 0, 1, 2 or 4";
     return false;
   }
   if (max_disparity != 0 && max_disparity <= min_disparity) {

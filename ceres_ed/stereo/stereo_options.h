@@ -44,17 +44,21 @@ struct StereoOptions {
   // A pixel is left out if the correlation of its window in the two pictures is less than this; -1
   // (all are kept) to 1.
   double correlation = 0.5;
+  // Pixels this near to a jump of the depth or to a part without depth are left out, in pixels; >=
+  // 0 and <= 20.
+  int edge_margin = 4;
   // Connected parts with fewer pixels than this are left out; >= 0.
   int speckle_size = 200;
   // Pixels with a channel of this value or more are left out, in both pictures; 1 to 256. 256:
   // none.
   int highlight = 250;
-  // Whether pictures of half the size are compared.
-  bool half_resolution = false;
+  // Pictures that are this many times smaller are compared: 1, 2 or 4. 0: the least of these with
+  // which they have at most 1024 columns.
+  int reduce = 0;
   // Whether disparities are refined to fractions of a pixel by the gradient of the pictures.
   bool refine = true;
   // The radius of a filter that smooths depth but not its edges, in pixels; 0: no filter; <= 20.
-  int smoothing = 0;
+  int smoothing = 5;
   // The standard deviation of the disparity in pixels of the pictures, > 0; it is part of the noise
   // of the depth (depth_noise.h).
   double disparity_sigma = 0.25;
