@@ -197,7 +197,7 @@ void Tracker::Measure(const AssociationResult& association, double noise, FrameR
   const double width = kInlierWidth * std::max(association.deviation, noise);
   double squares = 0.0;
   for (const Association& m : association.matches) {
-    if (std::abs(m.distance) > width) continue;
+    if (std::abs(m.ScaledDistance()) > width) continue;
     ++report->inliers;
     squares += m.distance * m.distance;
   }
@@ -222,7 +222,7 @@ void Tracker::Fuse(const AssociationResult& association, int frame, double noise
   for (const Association& m : association.matches) {
     const int slot = visible_[m.visible].slot;
     MapPoint point = map_.point(slot);
-    if (std::abs(m.distance) > width) {
+    if (std::abs(m.ScaledDistance()) > width) {
       if (point.IsTentative()) Contradict(m.visible, point);
       continue;
     }

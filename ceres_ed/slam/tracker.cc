@@ -115,7 +115,7 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
   const bool first = unit_ == 0.0;
   if (first) Initialize(frame);
   if (unit_ == 0.0) return report;
-  ObservedSurface surface = Smooth(frame.depth, 1.0 / unit_, surface_radius_);
+  ObservedSurface surface = Smooth(frame, 1.0 / unit_, surface_radius_);
   report.times.observe = timer.Seconds();
   if (surface.num_valid() == 0) {
     gap_ = true;
@@ -136,17 +136,17 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
   return report;
 }
 
-ObservedSurface Tracker::Smooth(DepthView depth, double scale, int radius) const {
+ObservedSurface Tracker::Smooth(const SlamFrame& frame, double scale, int radius) const {
   ObservedSurfaceOptions options = options_.surface;
   options.radius = radius;
-  return {depth, camera_, scale, options};
+  return {frame.depth, camera_, scale, options, frame.noise};
 }
 
 void Tracker::Initialize(const SlamFrame& frame) {
-  const ObservedSurface rough = Smooth(frame.depth, 1.0, options_.surface.radius);
+  const ObservedSurface rough = Smooth(frame, 1.0, options_.surface.radius);
   if (rough.num_valid() == 0) return;
   surface_radius_ = rough.RadiusForNoise();
-  ObservedSurface surface = Smooth(frame.depth, 1.0, surface_radius_);
+  ObservedSurface surface = Smooth(frame, 1.0, surface_radius_);
   if (surface.num_valid() < kLeastSmoothed * rough.num_valid()) {
     surface_radius_ = options_.surface.radius;
     surface = rough;

@@ -52,7 +52,7 @@ class Tracker final : public DeformableSlam {
 
  private:
   void Initialize(const SlamFrame& frame);
-  ObservedSurface Smooth(DepthView depth, double scale, int radius) const;
+  ObservedSurface Smooth(const SlamFrame& frame, double scale, int radius) const;
   CameraPose Predict(const SlamFrame& frame) const;
   bool FindCamera(const SlamFrame& frame, const ObservedSurface& surface, FrameReport* report);
   int FindCorners(const ObservedSurface& surface,

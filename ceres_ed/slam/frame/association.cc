@@ -7,6 +7,14 @@
 #include <utility>
 
 namespace ceres_ed {
+namespace {
+
+// Returns the inverse of the variance of a patch, relative to a typical one.
+double NoiseWeight(const SurfacePatch& patch) {
+  return std::clamp(1.0 / (patch.relative_noise * patch.relative_noise), 0.1, 4.0);
+}
+
+}  // namespace
 
 AssociationResult Associate(const std::vector<VisiblePoint>& points,
                             const CameraPose& camera_from_map,
@@ -34,9 +42,9 @@ AssociationResult Associate(const std::vector<VisiblePoint>& points,
     }
     if ((rotation * point.normal_in_map).dot(patch->normal) < min_cosine) continue;
     const double cosine = -patch->normal.dot(patch->point) / patch->point.norm();
-    match.weight = std::clamp(cosine, 0.1, 1.0);
+    match.weight = std::clamp(cosine, 0.1, 1.0) * NoiseWeight(*patch);
     result.matches.push_back(match);
-    distances.push_back(match.distance);
+    distances.push_back(match.ScaledDistance());
   }
   result.deviation = RobustDeviation(std::move(distances));
   return result;

@@ -21,8 +21,12 @@ struct Association {
   // The signed distance of the point to the plane of the patch, in map units, positive toward the
   // camera.
   double distance = 0.0;
-  // The weight in (0, 1]; patches seen at a grazing angle are less certain.
+  // The weight in (0, 4]; patches seen at a grazing angle are less certain, and so are those with
+  // more noise than others.
   double weight = 1.0;
+
+  // Returns the distance in units of the noise of the patch, times the noise of a typical one.
+  double ScaledDistance() const { return distance / patch->relative_noise; }
 };
 
 // Options of Associate().
@@ -45,7 +49,7 @@ struct AssociationResult {
   // behind the patch: something else stands before them.
   int measured = 0;
   int occluded = 0;
-  // The RobustDeviation() of the matches' distances.
+  // The RobustDeviation() of the matches' scaled distances.
   double deviation = 0.0;
 
   // Returns the share of the points with a patch that match it, without those that are occluded.

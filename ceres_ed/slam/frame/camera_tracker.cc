@@ -171,7 +171,7 @@ CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
     const AssociationResult association = Associate(points, pose, surface, options.association);
     const double deviation = std::max(association.deviation, kLeastDeviation);
     const auto is_inlier = [&](const Association& m) {
-      return std::abs(m.distance) <= kInlierWidth * deviation;
+      return std::abs(m.ScaledDistance()) <= kInlierWidth * deviation;
     };
     result.measured = association.measured;
     result.deviation = association.deviation;
@@ -184,7 +184,7 @@ CameraTrackerResult TrackCamera(const std::vector<VisiblePoint>& all_points,
       equations.Add(points[m.visible].in_camera,
                     m.patch->normal,
                     m.distance,
-                    m.weight * TukeyWeight(m.distance, width));
+                    m.weight * TukeyWeight(m.ScaledDistance(), width));
     }
     equations.EndPlanes();
     AddPointMatches(matches, pose, width, options.match_weight, &equations);

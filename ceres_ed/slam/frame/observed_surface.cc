@@ -136,7 +136,8 @@ class PatchFitter {
 ObservedSurface::ObservedSurface(DepthView depth,
                                  const PinholeCamera& camera,
                                  double scale,
-                                 const ObservedSurfaceOptions& options)
+                                 const ObservedSurfaceOptions& options,
+                                 const DepthNoise& model)
     : camera_(camera),
       options_(options),
       cell_(options.cell),
@@ -160,10 +161,18 @@ ObservedSurface::ObservedSurface(DepthView depth,
   num_valid_ = static_cast<int>(std::count_if(patches.begin(), patches.end(), is_valid));
   noise_ = MedianOfDeviations(patches, 1 + num_valid_ / kNoiseSamples);
   median_depth_ = MedianDepth(patches);
+  if (model.known() && num_valid_ > 0) UseModel(model.Scaled(scale));
   // Two pixels are z / f apart.
   if (median_depth_ > 0.0) {
     slope_noise_ =
         noise_ * std::min(camera.fx, camera.fy) / median_depth_ * SlopeNoise(options.radius);
+  }
+}
+
+void ObservedSurface::UseModel(const DepthNoise& model) {
+  noise_ = model.At(median_depth_);
+  for (SurfacePatch& patch : patches_.pixels()) {
+    if (patch.valid()) patch.relative_noise = model.At(patch.point.z()) / noise_;
   }
 }
 

@@ -2,6 +2,7 @@
 #ifndef CERES_ED_SLAM_FRAME_OBSERVED_SURFACE_H_
 #define CERES_ED_SLAM_FRAME_OBSERVED_SURFACE_H_
 
+#include <ceres_ed/geometry/depth_noise.h>
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/nearest_pixel.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
@@ -21,6 +22,9 @@ struct SurfacePatch {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   // The spread of the measured depths about the plane, along the optical axis.
   double deviation = 0.0;
+  // The noise of a pixel of the patch divided by ObservedSurface::noise(): 1 unless a model of the
+  // noise says that it depends on the depth.
+  double relative_noise = 1.0;
 
   bool valid() const { return !normal.isZero(); }
 };
@@ -29,11 +33,13 @@ struct SurfacePatch {
 // so that the fit is linear: 1/z = a u + b v + c.
 class ObservedSurface {
  public:
-  // Lengths are those of `depth` multiplied by `scale` (map units per metre).
+  // Lengths are those of `depth` multiplied by `scale` (map units per metre). `model` is the noise
+  // of `depth`; if it is not known, the noise is measured.
   ObservedSurface(DepthView depth,
                   const PinholeCamera& camera,
                   double scale,
-                  const ObservedSurfaceOptions& options);
+                  const ObservedSurfaceOptions& options,
+                  const DepthNoise& model = {});
 
   int width() const { return patches_.width(); }
   int height() const { return patches_.height(); }
@@ -41,8 +47,8 @@ class ObservedSurface {
   const PinholeCamera& camera() const { return camera_; }
   // Returns the number of valid patches.
   int num_valid() const { return num_valid_; }
-  // Returns the median of the patches' deviations, which is the noise of a pixel along the optical
-  // axis; 0 if there are no patches.
+  // Returns the noise of a typical pixel along the optical axis: by the model that at the median
+  // depth, otherwise the median of the patches' deviations; 0 if there are no patches.
   double noise() const { return noise_; }
   // Returns the median depth of the patches; 0 if there are none.
   double median_depth() const { return median_depth_; }
@@ -75,6 +81,9 @@ class ObservedSurface {
   }
 
  private:
+  // Takes the noise from a model in the unit of the surface.
+  void UseModel(const DepthNoise& model);
+
   PinholeCamera camera_;
   ObservedSurfaceOptions options_;
   int cell_;
