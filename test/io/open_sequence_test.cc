@@ -158,9 +158,10 @@ TEST_F(OpenedSequences, BadCameraPosesOrDepthAreErrors) {
 TEST_F(OpenedSequences, FolderThatIsNoSequenceIsAnErrorThatTellsWhatIsNeeded) {
   const std::string needs =
       ", expected depth.txt (tum), or stereo.txt, left/NNNNNN.png and right/NNNNNN.png "
-      "(native_stereo), or camera.txt and depth/NNNNNN.png (native), or intrinsics.txt and depth/ "
-      "or "
-      "depth01/ (hamlyn)";
+      "(native_stereo), or calib.left.intrinsic.txt, calib.right.intrinsic.txt, calib.l2r.txt, "
+      "left/ "
+      "and right/ (scikit_surgery), or camera.txt and depth/NNNNNN.png (native), or intrinsics.txt "
+      "and depth/ or depth01/ (hamlyn)";
   EXPECT_EQ(OpenError(folder_), "DIR: the folder is empty" + needs);
   folder_.Depth("depth/0.png");
   EXPECT_EQ(OpenError(folder_), "DIR: no layout of a depth sequence that is known" + needs);
@@ -191,7 +192,8 @@ TEST(SequenceFormatNames, AreThoseOfTheTable) {
   }
   EXPECT_EQ(NameOf(SequenceFormat::kHamlyn), "hamlyn");
   EXPECT_FALSE(FindByName<SequenceFormat>("TUM").has_value());
-  EXPECT_EQ(ListNames<SequenceFormat>(", "), "auto, tum, native, hamlyn, native_stereo");
+  EXPECT_EQ(ListNames<SequenceFormat>(", "),
+            "auto, tum, native, hamlyn, native_stereo, scikit_surgery");
 }
 
 }  // namespace
