@@ -103,7 +103,7 @@ DisparityImage StereoMatcher::Compare(const GrayImage& left,
 }
 
 int StereoMatcher::Scale() const {
-  constexpr int kLargestWidth = 1024;
+  constexpr int kLargestWidth = 800;
   constexpr int kLargestScale = 4;
   if (options_.reduce > 0) return options_.reduce;
   int scale = 1;

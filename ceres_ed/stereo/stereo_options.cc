@@ -45,7 +45,7 @@ const OptionTable<StereoOptions>& StereoOptions::Rows() {
           .In(Between(1, 256)),
       Row(&O::reduce, "reduce", "Compare pictures that are 1, 2 or 4 times smaller.")
           .In(Between(0, 4))
-          .Special(0, "automatic: at most 1024 columns")
+          .Special(0, "automatic: at most 800 columns")
           .Main(),
       Row(&O::refine, "refine", "Refine disparities to fractions of a pixel."),
       Row(&O::smoothing, "smoothing", "Radius of a filter that smooths depth but not its edges.")

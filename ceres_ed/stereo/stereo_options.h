@@ -53,7 +53,7 @@ struct StereoOptions {
   // none.
   int highlight = 250;
   // Pictures that are this many times smaller are compared: 1, 2 or 4. 0: the least of these with
-  // which they have at most 1024 columns.
+  // which they have at most 800 columns (4 if none is enough).
   int reduce = 0;
   // Whether disparities are refined to fractions of a pixel by the gradient of the pictures.
   bool refine = true;

@@ -172,6 +172,9 @@ class DepthRun {
       const RectifiedRig& rig = *source_.rig();
       info["baseline_m"] = rig.baseline;
       info["disparity_of_infinity"] = rig.offset;
+      const Eigen::Quaterniond& q = rig.rectified_from_left.rotation;
+      info["rectified_from_left"] = {{"qx", q.x()}, {"qy", q.y()}, {"qz", q.z()}, {"qw", q.w()}};
+      info["stereo_s"] = summary.stereo_s;
       info["disparity_sigma"] = settings_.stereo.disparity_sigma;
       info["noise"] = "sigma_z = z^2 / (fx baseline) disparity_sigma";
     }
