@@ -63,7 +63,7 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           .OnResume(ResumeRule::kFree)
           .Main(),
       Nested(&S::sequence, SequenceOptions::Rows()),
-      Nested(&S::stereo, StereoOptions::Rows(), "stereo_"),
+      Nested(&S::stereo, StereoOptions::Rows(), "stereo_").Group(OptionGroup::kExpert),
       Nested(&S::options, SlamOptions::Rows()),
   });
   return rows;
