@@ -56,7 +56,8 @@ Outcome Run(const std::vector<std::string>& arguments) {
 const ProgramInfo kProgram = {
     "ed_slam",
     "SEQUENCE_DIR --output=DIR",
-    "Tracks a deforming scene in depth frames and maps it. Writes report.json, frames.csv, "
+    "Tracks a deforming scene in depth frames or stereo pictures and maps it. Writes report.json, "
+    "frames.csv, "
     "trajectory.txt, map.ply, graph.ply, tracks.csv and live/NNNNNN.ply to DIR, in metres and "
     "seconds. t_total of a frame does not include reading and decoding (t_load) and writing "
     "(t_write). Ctrl-C ends the run after the current frame.",

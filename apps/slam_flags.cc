@@ -44,8 +44,7 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           .File(),
       Row(&S::checkpoint_every,
           "checkpoint_every",
-          "The number of frames between checkpoints; without any, the map and the report are "
-          "written at the end only.")
+          "Save the state, the map and the report every n frames.")
           .In(AtLeast(0))
           .Special(0, "none")
           .OnResume(ResumeRule::kFree)

@@ -217,12 +217,23 @@ std::string SpecialsText(const Option& option) {
   return text;
 }
 
-// Returns the sentence of a flag, the names or words that a value may have, the default and the
-// unit.
-std::string DescriptionOf(const OptionFlag& flag) {
+// Returns the first of a list of names if the list is long, and "...".
+std::string FirstNames(const std::string& names) {
+  constexpr int kMost = 5;
+  constexpr int kShown = 4;
+  if (std::count(names.begin(), names.end(), ',') < kMost) return names;
+  std::size_t end = 0;
+  for (int i = 0; i < kShown; ++i) end = names.find(',', end) + 1;
+  return names.substr(0, end) + " ..";
+}
+
+// Returns the sentence of a flag, the names or words that a value may have (by `scope` only the
+// first of many), the default and the unit.
+std::string DescriptionOf(const OptionFlag& flag, HelpScope scope) {
   const Option& option = *flag.option;
+  const std::string names = scope == HelpScope::kShort ? FirstNames(flag.names) : flag.names;
   std::string text = option.doc;
-  if (!flag.names.empty()) text += " One of " + flag.names + ".";
+  if (!names.empty()) text += " One of " + names + ".";
   if (const std::string specials = SpecialsText(option); !specials.empty()) {
     text += " " + specials + ".";
   }
@@ -252,7 +263,9 @@ std::vector<const OptionFlag*> FlagsOf(OptionGroup group) {
   return flags;
 }
 
-std::string HelpLines(const std::vector<const OptionFlag*>& flags, std::size_t name_width) {
+std::string HelpLines(const std::vector<const OptionFlag*>& flags,
+                      std::size_t name_width,
+                      HelpScope scope) {
   constexpr int kTypeWidth = 10;
   const int indent = static_cast<int>(name_width) + kTypeWidth + 6;
   std::string text;
@@ -261,7 +274,7 @@ std::string HelpLines(const std::vector<const OptionFlag*>& flags, std::size_t n
     const std::string type = TypeName(InfoOf(*flag));
     text += "  --" + names + std::string(name_width - names.size() + 1, ' ') + type +
             std::string(kTypeWidth - type.size() + 1, ' ') +
-            Wrap(DescriptionOf(*flag), indent, kHelpColumns - indent) + "\n";
+            Wrap(DescriptionOf(*flag, scope), indent, kHelpColumns - indent) + "\n";
   }
   return text;
 }
@@ -313,7 +326,7 @@ std::string HelpText(const ProgramInfo& info, HelpScope scope) {
     const std::vector<const OptionFlag*> flags = FlagsOf(group.group);
     if (flags.empty()) continue;
     if (scope == HelpScope::kShort && group.group == OptionGroup::kExpert) continue;
-    text += "\n" + std::string(group.title) + " [default]:\n" + HelpLines(flags, name_width);
+    text += "\n" + std::string(group.title) + " [default]:\n" + HelpLines(flags, name_width, scope);
   }
   if (num_hidden > 0) {
     text += "\n--help=all shows " + std::to_string(num_hidden) + " more flags, for experts.\n";
