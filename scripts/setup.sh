@@ -30,7 +30,7 @@ add_list() {
       ;;
     tracking)
       add_list fit
-      add libopencv-core-dev libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev
+      add libopencv-core-dev libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev libyaml-cpp-dev
       ;;
     demo) add_list tracking ;;
     python) add_list tracking && add python3-dev pybind11-dev python3-numpy ;;
