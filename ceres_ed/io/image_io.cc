@@ -1,14 +1,17 @@
 #include "ceres_ed/io/image_io.h"
 
 #include <ceres_ed/io/atomic_file.h>
+#include <ceres_ed/io/npy_file.h>
 #include <ceres_ed/io/text.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <opencv2/core.hpp>
@@ -35,9 +38,21 @@ StatusOr<cv::Mat> Decode(const std::string& path, int flags) {
   return image;
 }
 
+bool EndsWith(const std::string& text, std::string_view end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 Status Encode(const std::string& path, const cv::Mat& image) {
   std::vector<std::uint8_t> bytes;
-  if (!cv::imencode(".png", image, bytes)) return Status::Error(path + ": can't be encoded as PNG");
+  const bool is_tiff = EndsWith(path, ".tiff");
+  const char* const kind = is_tiff ? ".tiff" : ".png";
+  // Otherwise OpenCV would round floats to the few digits of SGI LogLuv.
+  constexpr int kUncompressed = 1;
+  std::vector<int> options;
+  if (is_tiff) options = {cv::IMWRITE_TIFF_COMPRESSION, kUncompressed};
+  if (!cv::imencode(kind, image, bytes, options)) {
+    return Status::Error(path + ": can't be encoded as " + (kind + 1));
+  }
   return WriteFileAtomically(path, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
@@ -72,6 +87,44 @@ DepthImage ToMetres(const cv::Mat& image, double units_per_metre) {
   return depth;
 }
 
+// Returns the metres of channel `channel` of an image of floats.
+DepthImage FloatsToMetres(const cv::Mat& image, int channel, double units_per_metre) {
+  DepthImage depth(image.cols, image.rows, 0.0F);
+  for (int v = 0; v < image.rows; ++v) {
+    const float* row = image.ptr<float>(v);
+    for (int u = 0; u < image.cols; ++u) {
+      const float stored = row[image.channels() * u + channel];
+      const bool is_depth = std::isfinite(stored) && stored > 0.0F;
+      if (is_depth) depth(u, v) = static_cast<float>(static_cast<double>(stored) / units_per_metre);
+    }
+  }
+  return depth;
+}
+
+StatusOr<DepthImage> ReadDepthArray(const std::string& path, double units_per_metre) {
+  const StatusOr<NpyArray> array = ReadNpyFile(path);
+  if (!array.ok()) return array.status();
+  constexpr std::size_t kLargest = 32768;
+  std::vector<std::size_t> shape = array->shape;
+  if (shape.size() == 3 && shape[2] == 1) shape.pop_back();
+  const bool is_picture = shape.size() == 2 && std::all_of(shape.begin(), shape.end(), [](auto n) {
+                            return n > 0 && n <= kLargest;
+                          });
+  if (!is_picture) {
+    return Status::Error(path + ": the shape is " + array->ShapeText() +
+                         ", expected depth as (height, width)");
+  }
+  DepthImage depth(static_cast<int>(shape[1]), static_cast<int>(shape[0]), 0.0F);
+  std::transform(array->values.begin(),
+                 array->values.end(),
+                 depth.pixels().begin(),
+                 [units_per_metre](double stored) {
+                   const bool is_depth = std::isfinite(stored) && stored > 0.0;
+                   return is_depth ? static_cast<float>(stored / units_per_metre) : 0.0F;
+                 });
+  return depth;
+}
+
 }  // namespace
 
 StatusOr<DepthImage> ReadDepthImage(const std::string& path,
@@ -79,6 +132,7 @@ StatusOr<DepthImage> ReadDepthImage(const std::string& path,
                                     int* saturated) {
   CHECK_GT(units_per_metre, 0.0);
   if (saturated != nullptr) *saturated = 0;
+  if (EndsWith(path, ".npy")) return ReadDepthArray(path, units_per_metre);
   StatusOr<cv::Mat> image = Decode(path, cv::IMREAD_UNCHANGED);
   if (!image.ok()) return image.status();
   if (image->type() == CV_16UC1) {
@@ -86,6 +140,9 @@ StatusOr<DepthImage> ReadDepthImage(const std::string& path,
     if (saturated != nullptr) *saturated = count;
     return ToMetres<std::uint16_t>(*image, units_per_metre);
   }
+  if (image->type() == CV_32FC1) return FloatsToMetres(*image, 0, units_per_metre);
+  // x, y, z are the red, green and blue of the file, and OpenCV turns them round.
+  if (image->type() == CV_32FC3) return FloatsToMetres(*image, 0, units_per_metre);
   if (image->type() == CV_8UC1) return ToMetres<std::uint8_t>(*image, units_per_metre);
   return Status::Error(path + ": " + std::to_string(image->channels()) + " channels of " +
                        std::to_string(8 * image->elemSize1()) +
@@ -127,6 +184,24 @@ Status WriteDepthImage(const std::string& path, const DepthImage& depth, double 
       const double units = std::round(static_cast<double>(depth(u, v)) * units_per_metre);
       const bool fits = units > 0.0 && units <= kLargestDepth;
       row[u] = fits ? static_cast<std::uint16_t>(units) : std::uint16_t{0};
+    }
+  }
+  return Encode(path, image);
+}
+
+Status WritePointImage(const std::string& path,
+                       const PinholeCamera& camera,
+                       const DepthImage& depth,
+                       double units_per_metre) {
+  CHECK_GT(units_per_metre, 0.0);
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  cv::Mat image(depth.height(), depth.width(), CV_32FC3, cv::Scalar::all(kNone));
+  for (int v = 0; v < image.rows; ++v) {
+    float* row = image.ptr<float>(v);
+    for (int u = 0; u < image.cols; ++u) {
+      if (!(depth(u, v) > 0.0F)) continue;
+      const Eigen::Vector3d point = camera.BackProject(u, v, depth(u, v)) * units_per_metre;
+      for (int axis = 0; axis < 3; ++axis) row[3 * u + 2 - axis] = static_cast<float>(point[axis]);
     }
   }
   return Encode(path, image);

@@ -31,6 +31,13 @@ Status WriteMaskImage(const std::string& path, const MaskImage& /*mask*/) {
   return NoPictures(path);
 }
 
+Status WritePointImage(const std::string& path,
+                       const PinholeCamera& /*camera*/,
+                       const DepthImage& /*depth*/,
+                       double /*units_per_metre*/) {
+  return NoPictures(path);
+}
+
 Status WriteColorImage(const std::string& path, const ColorImage& /*color*/) {
   return NoPictures(path);
 }
