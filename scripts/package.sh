@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=build/packages
-scripts/setup.sh packages pcl
+scripts/setup.sh packages pcl video
 # A folder of its own beside that of the preset: same objects, so a compiler cache serves both.
 scripts/configure.sh release -B build/release-packages -DBUILD_SHARED_LIBS=ON \
   -DCMAKE_INSTALL_PREFIX=/usr -DCERES_ED_BUILD_TESTS=OFF -DCERES_ED_BUILD_APPS=ON \

@@ -6,6 +6,7 @@
 #   demo      what scripts/demo.sh needs: tracking
 #   python    the Python package
 #   pcl       the module for PCL and .pcd files
+#   video     the module for recordings that are videos
 #   packages  what scripts/package.sh makes Debian packages with
 #   docs      what scripts/docs.sh makes the API pages with
 #   test      what scripts/test.sh needs: all of the above
@@ -30,21 +31,23 @@ add_list() {
       ;;
     tracking)
       add_list fit
-      add libopencv-core-dev libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev libopencv-imgcodecs-dev libopencv-video-dev libyaml-cpp-dev
+      add libopencv-core-dev libopencv-calib3d-dev libopencv-features2d-dev libopencv-imgproc-dev \
+        libopencv-imgcodecs-dev libopencv-video-dev libyaml-cpp-dev
       ;;
     demo) add_list tracking ;;
     python) add_list tracking && add python3-dev pybind11-dev python3-numpy ;;
     pcl) add_list fit && add libpcl-dev ;;
+    video) add_list tracking && add libopencv-videoio-dev ;;
     packages) add_list python && add dpkg-dev file ;;
     docs) add doxygen python3 ;;
     test)
-      for list in packages pcl docs; do add_list "$list"; done
+      for list in packages pcl video docs; do add_list "$list"; done
       add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy
       ;;
     lint) add clang-format clang-tidy ;;
     all) add_list test && add_list lint ;;
     *)
-      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, packages, docs, test, lint or all" >&2
+      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, video, packages, docs, test, lint or all" >&2
       exit 1
       ;;
   esac

@@ -5,6 +5,7 @@
 #   tools    programs, the demo and its data
 #   python   the Python package (ceres_ed/python)
 #   pcl      the module for PCL, with its header (ceres_ed/pcl)
+#   video    the module for videos (ceres_ed/video)
 #   doc      the licence; each Debian package has one of its own (packages.cmake)
 include(CMakePackageConfigHelpers)
 

@@ -79,6 +79,13 @@ With this package the programs read and write .pcd files, and C++ programs
 convert the clouds and meshes of the Point Cloud Library (which they build
 with libceres-ed-dev and libpcl-dev).")
 endif()
+if(TARGET ceres_ed_video)
+  ceres_ed_add_package(
+    video ceres-ed-video libs "${ceres_ed_same_version}" "embedded deformation graphs: videos"
+    "${ceres_ed_text}\n
+With this package the programs read and write stereo recordings that are
+videos.")
+endif()
 
 if(NOT BUILD_SHARED_LIBS)
   # Says so when cpack is called; a static build is fine for anything else.

@@ -24,10 +24,8 @@ struct MeshModule {
 using MeshModuleFunction = const MeshModule*();
 inline constexpr char kMeshModuleSymbol[] = "ceres_ed_mesh_module";
 
-// Returns the module in the shared object `file` (a name without folders), which stays loaded. It
-// is searched in the folder of the environment variable CERES_ED_MODULES if that is set, next to
-// the program or library that calls, in the folder of libraries that belongs to it, and in the
-// system's folders of libraries. The error gives the message of the system or of the module.
+// Returns the module in the shared object `file`, which OpenModule() finds (module_file.h). The
+// error gives the message of the system or of the module.
 StatusOr<const MeshModule*> LoadMeshModule(const std::string& file);
 
 }  // namespace ceres_ed
