@@ -240,11 +240,11 @@ TEST_F(LlffPoses, OtherSizesAndFocalLengthsAreErrors) {
 
 TEST_F(CalibrationFiles, CameraMatrixMayHaveFourRows) {
   const auto file =
-      ReadCameraMatrix(Write("i.txt", "575 0 319 0\n0 576 239 0\n0 0 1 0\n0 0 0 1\n"));
+      ReadIntrinsicsFile(Write("i.txt", "575 0 319 0\n0 576 239 0\n0 0 1 0\n0 0 0 1\n"));
   ASSERT_TRUE(file.ok()) << file.status().message();
   EXPECT_EQ(file->rows, 4);
   EXPECT_EQ(file->camera.fy, 576.0);
-  EXPECT_THAT(ReadCameraMatrix(Write("i.txt", "575 0 319 0\n0 576 239 0\n0 0 1 0\n0 0 0 2\n"))
+  EXPECT_THAT(ReadIntrinsicsFile(Write("i.txt", "575 0 319 0\n0 576 239 0\n0 0 1 0\n0 0 0 2\n"))
                   .status()
                   .message(),
               HasSubstr("the fourth row and column are not those of the identity"));

@@ -16,7 +16,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr char kIntrinsics[] = "383.19 0 155.97 0\n0 384.5 124.33 0\n0 0 1 0\n";
+constexpr char kIntrinsics[] = "383.19 0 1.75 0\n0 384.5 1.25 0\n0 0 1 0\n";
 
 class HamlynSequences : public ::testing::Test {
  protected:
@@ -57,8 +57,8 @@ TEST_F(HamlynSequences, BothPairsOfFoldersAreKnown) {
     const PinholeCamera& camera = (*sequence)->camera();
     EXPECT_EQ(camera.fx, 383.19);
     EXPECT_EQ(camera.fy, 384.5);
-    EXPECT_EQ(camera.cx, 155.97);
-    EXPECT_EQ(camera.cy, 124.33);
+    EXPECT_EQ(camera.cx, 1.75);
+    EXPECT_EQ(camera.cy, 1.25);
     const StatusOr<DepthFrame> frame = (*sequence)->Load(1);
     ASSERT_TRUE(frame.ok()) << frame.status().message();
     EXPECT_EQ(frame->time_s, 10.0);
@@ -132,6 +132,15 @@ TEST_F(HamlynSequences, BadIntrinsicsAreErrors) {
               "DIR/intrinsics.txt: the rows are no camera matrix of a rectified picture, expected "
               "fx 0 cx, 0 fy cy, 0 0 1");
   }
+}
+
+TEST_F(HamlynSequences, IntrinsicsOfLargerPicturesAreAnError) {
+  folder_.Text("intrinsics.txt", "600 0 322\n0 600 238\n0 0 1\n");
+  folder_.Depth("depth01/1.png", 1000, 320, 240);
+  EXPECT_EQ(OpenError(folder_),
+            "DIR/intrinsics.txt: the principal point (322, 238) is outside the pictures of 320 x "
+            "240 pixels, expected the intrinsics of these pictures: if they were resized, multiply "
+            "fx, fy, cx and cy by the same factor");
 }
 
 TEST_F(HamlynSequences, NoDepthIsAnError) {

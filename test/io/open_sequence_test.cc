@@ -157,11 +157,12 @@ TEST_F(OpenedSequences, BadCameraPosesOrDepthAreErrors) {
 
 TEST_F(OpenedSequences, FolderThatIsNoSequenceIsAnErrorThatTellsWhatIsNeeded) {
   const std::string needs =
-      ", expected depth.txt (tum), or stereo.txt, left/NNNNNN.png and right/NNNNNN.png "
-      "(native_stereo), or calib.left.intrinsic.txt, calib.right.intrinsic.txt, calib.l2r.txt, "
-      "left/ "
-      "and right/ (scikit_surgery), or camera.txt and depth/NNNNNN.png (native), or intrinsics.txt "
-      "and depth/ or depth01/ (hamlyn)";
+      ", expected depth.txt (tum), or stereo.txt or calibration.yaml beside one or two videos "
+      "(stereo_video), or stereo.txt, left/NNNNNN.png and right/NNNNNN.png (native_stereo), or "
+      "camera.txt and depth/NNNNNN.png (native), or intrinsics.txt and depth/ or depth01/ "
+      "(hamlyn), "
+      "or the files of a data set: stereomis, scared, deform3dgs, endonerf, d4d, servct, surgt, "
+      "stir, hamlyn_stereo, c3vd, deepdeform, super, sevenscenes, scikit_surgery";
   EXPECT_EQ(OpenError(folder_), "DIR: the folder is empty" + needs);
   folder_.Depth("depth/0.png");
   EXPECT_EQ(OpenError(folder_), "DIR: no layout of a depth sequence that is known" + needs);
@@ -193,7 +194,9 @@ TEST(SequenceFormatNames, AreThoseOfTheTable) {
   EXPECT_EQ(NameOf(SequenceFormat::kHamlyn), "hamlyn");
   EXPECT_FALSE(FindByName<SequenceFormat>("TUM").has_value());
   EXPECT_EQ(ListNames<SequenceFormat>(", "),
-            "auto, tum, native, hamlyn, native_stereo, scikit_surgery");
+            "auto, tum, native, hamlyn, native_stereo, scikit_surgery, stereo_video, stereomis, "
+            "scared, endonerf, deform3dgs, d4d, servct, surgt, stir, hamlyn_stereo, c3vd, "
+            "deepdeform, super, sevenscenes");
 }
 
 }  // namespace

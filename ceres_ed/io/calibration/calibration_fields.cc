@@ -182,6 +182,20 @@ Status FinishRectifiedRig(const std::string& path,
   if (!std::isfinite(x)) {
     return Status::Error(path + ": a focal length is 0, expected a positive number of pixels");
   }
+  // Rectified cameras differ in cx only; what rounding has left is removed.
+  PinholeCamera& right_camera = calibration->rig.right.pinhole;
+  const PinholeCamera& left_camera = calibration->rig.left.pinhole;
+  constexpr double kRounding = 1e-3;
+  if (std::abs(right_camera.fx - left_camera.fx) > kRounding * left_camera.fx ||
+      std::abs(right_camera.fy - left_camera.fy) > kRounding * left_camera.fy ||
+      std::abs(right_camera.cy - left_camera.cy) > 1.0) {
+    return Status::Error(path +
+                         ": focal length or cy of the left and the right camera differ, "
+                         "expected rectified cameras, which differ in cx alone");
+  }
+  right_camera.fx = left_camera.fx;
+  right_camera.fy = left_camera.fy;
+  right_camera.cy = left_camera.cy;
   return FinishRig(path, Eigen::Matrix3d::Identity(), {x, 0.0, 0.0}, calibration);
 }
 

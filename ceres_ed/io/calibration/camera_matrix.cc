@@ -44,7 +44,7 @@ bool EndsAsIdentity(const Eigen::Matrix4d& matrix) {
 
 }  // namespace
 
-StatusOr<CameraMatrixFile> ReadCameraMatrix(const std::string& path) {
+StatusOr<CameraMatrixFile> ReadIntrinsicsFile(const std::string& path) {
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
   Eigen::Index num_rows = 0;
   Status status = ForEachTextRow(path, [&](const TextRow& row) {

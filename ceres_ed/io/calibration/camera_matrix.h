@@ -20,7 +20,7 @@ struct CameraMatrixFile {
 // Reads a matrix of 3 rows of 3 or 4 numbers, or of 4 rows of 4 numbers: fx 0 cx, 0 fy cy, 0 0 1.
 // A fourth column of 3 rows belongs to the other camera and is not used. Text after # is ignored.
 // Errors name file, line, value and what was expected.
-StatusOr<CameraMatrixFile> ReadCameraMatrix(const std::string& path);
+StatusOr<CameraMatrixFile> ReadIntrinsicsFile(const std::string& path);
 
 }  // namespace ceres_ed
 

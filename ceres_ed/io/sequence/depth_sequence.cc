@@ -106,8 +106,7 @@ Status DepthSequence::LoadDepth(const SequenceEntry& entry,
                                 DepthFrame* frame,
                                 FrameProblem* problem) const {
   DepthImage* const depth = &frame->depth;
-  StatusOr<DepthImage> read =
-      ReadDepth(entry.depth, listing_->depth_encoding, depth_units_per_metre(), &frame->saturated);
+  StatusOr<DepthImage> read = ReadDepth(entry.depth, depth_units_per_metre(), &frame->saturated);
   Status status = Take(entry.depth, camera(), std::move(read), depth, problem);
   if (!status.ok() || entry.mask.empty()) return status;
   MaskImage mask;

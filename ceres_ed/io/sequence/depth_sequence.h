@@ -60,15 +60,50 @@ struct SequenceEntry;
 struct SequenceListing;
 
 // The layout of a folder.
-enum class SequenceFormat { kAuto, kNative, kTum, kHamlyn, kNativeStereo, kScikitSurgery };
+enum class SequenceFormat {
+  kAuto,
+  kNative,
+  kTum,
+  kHamlyn,
+  kNativeStereo,
+  kScikitSurgery,
+  kStereoVideo,
+  kStereoMis,
+  kScared,
+  kEndoNerf,
+  kDeform3dgs,
+  kD4d,
+  kServCt,
+  kSurgT,
+  kStir,
+  kHamlynStereo,
+  kC3vd,
+  kDeepDeform,
+  kSuper,
+  kSevenScenes
+};
 
-constexpr std::array<NamedValue<SequenceFormat>, 6> NamesOf(SequenceFormat) {
+constexpr std::array<NamedValue<SequenceFormat>, 20> NamesOf(SequenceFormat) {
   return {{{"auto", SequenceFormat::kAuto},
            {"tum", SequenceFormat::kTum},
            {"native", SequenceFormat::kNative},
            {"hamlyn", SequenceFormat::kHamlyn},
            {"native_stereo", SequenceFormat::kNativeStereo},
-           {"scikit_surgery", SequenceFormat::kScikitSurgery}}};
+           {"scikit_surgery", SequenceFormat::kScikitSurgery},
+           {"stereo_video", SequenceFormat::kStereoVideo},
+           {"stereomis", SequenceFormat::kStereoMis},
+           {"scared", SequenceFormat::kScared},
+           {"endonerf", SequenceFormat::kEndoNerf},
+           {"deform3dgs", SequenceFormat::kDeform3dgs},
+           {"d4d", SequenceFormat::kD4d},
+           {"servct", SequenceFormat::kServCt},
+           {"surgt", SequenceFormat::kSurgT},
+           {"stir", SequenceFormat::kStir},
+           {"hamlyn_stereo", SequenceFormat::kHamlynStereo},
+           {"c3vd", SequenceFormat::kC3vd},
+           {"deepdeform", SequenceFormat::kDeepDeform},
+           {"super", SequenceFormat::kSuper},
+           {"sevenscenes", SequenceFormat::kSevenScenes}}};
 }
 
 // Where the depth of a frame comes from. A sequence may have both images of depth and the pictures
@@ -83,6 +118,18 @@ enum class DepthFrom {
 constexpr std::array<NamedValue<DepthFrom>, 3> NamesOf(DepthFrom) {
   return {
       {{"auto", DepthFrom::kAuto}, {"images", DepthFrom::kImages}, {"stereo", DepthFrom::kStereo}}};
+}
+
+// What white pixels of a mask mean.
+enum class MaskMeans {
+  // As the layout has it; if it does not say, by the share of the picture that is white.
+  kAuto,
+  kTool,
+  kTissue,
+};
+
+constexpr std::array<NamedValue<MaskMeans>, 3> NamesOf(MaskMeans) {
+  return {{{"auto", MaskMeans::kAuto}, {"tool", MaskMeans::kTool}, {"tissue", MaskMeans::kTissue}}};
 }
 
 // Options for the frames to read.
@@ -102,6 +149,8 @@ struct SequenceOptions {
   bool color = true;
   // If false, masks are not applied: all measured depth is used.
   bool masks = true;
+  // What white (nonzero) pixels of a mask are. A tool is left out.
+  MaskMeans mask_means = MaskMeans::kAuto;
   // The number of stored depth units in a metre, >= 0 (metres = stored depth / this). 0: as given
   // by the sequence.
   double depth_units_per_metre = 0.0;

@@ -1,6 +1,7 @@
 #include "ceres_ed/io/sequence/sequence_format.h"
 
 #include <ceres_ed/io/calibration/camera_matrix.h>
+#include <ceres_ed/io/sequence/layout_files.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_listing.h>
 
@@ -22,8 +23,8 @@ bool IsHamlynSequence(const std::string& directory) {
 }
 
 StatusOr<SequenceListing> ListHamlynSequence(const std::string& directory) {
-  const StatusOr<CameraMatrixFile> intrinsics =
-      ReadCameraMatrix(JoinPath(directory, "intrinsics.txt"));
+  const std::string path = JoinPath(directory, "intrinsics.txt");
+  const StatusOr<CameraMatrixFile> intrinsics = ReadIntrinsicsFile(path);
   if (!intrinsics.ok()) return intrinsics.status();
   const std::string depth_folder = ChooseFolder(directory, "depth", "depth01");
   if (!IsFolder(depth_folder)) {
@@ -37,6 +38,9 @@ StatusOr<SequenceListing> ListHamlynSequence(const std::string& directory) {
   if (!listing.ok()) return listing.status();
   listing->camera = {intrinsics->camera, kMillimetresPerMetre};
   Status status = SetSizeFromPictures(listing->entries, &listing->camera.camera);
+  if (!status.ok()) return status;
+  PinholeCamera& camera = listing->camera.camera;
+  status = FitCamera(path, camera.width, camera.height, &camera);
   if (!status.ok()) return status;
   return listing;
 }

@@ -1,5 +1,6 @@
 #include "ceres_ed/io/sequence/depth_sequence.h"
 
+#include <ceres_ed/io/sequence/mask_meaning.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_format.h>
 #include <ceres_ed/io/sequence/sequence_listing.h>
@@ -27,10 +28,16 @@ const SequenceFormatReader* FindFormat(SequenceFormat format) {
 Status UnknownLayout(const std::string& directory, const std::string& problem) {
   std::string message = directory + ": " + problem + ", expected";
   const char* separator = " ";
+  std::string data_sets;
   for (const SequenceFormatReader& reader : kSequenceFormats) {
+    if (reader.needs[0] == '\0') {
+      data_sets += (data_sets.empty() ? "" : ", ") + NameOf(reader.format);
+      continue;
+    }
     message += separator + std::string(reader.needs) + " (" + NameOf(reader.format) + ")";
     separator = ", or ";
   }
+  message += ", or the files of a data set: " + data_sets;
   return Status::Error(message);
 }
 
@@ -207,6 +214,7 @@ const OptionTable<SequenceOptions>& SequenceOptions::Rows() {
           "Where depth comes from if a sequence has both images of depth and stereo pictures."),
       Row(&O::color, "color", "Read the colour pictures where there are some."),
       Row(&O::masks, "masks", "Leave out the pixels that the masks leave out."),
+      Row(&O::mask_means, "mask_means", "What white pixels of a mask are; tools are left out."),
       Row(&O::depth_units_per_metre,
           "depth_units_per_metre",
           "The depth in the pictures divided by this is in metres.")
@@ -254,6 +262,13 @@ StatusOr<std::unique_ptr<DepthSequence>> OpenSequence(const std::string& directo
   if (!options.masks) {
     listing->has_masks = false;
     for (SequenceEntry& entry : listing->entries) entry.mask = {};
+  }
+  Status meaning = DecideMasks(options.mask_means, &*listing);
+  if (!meaning.ok()) return meaning;
+  if (!listing->entries.front().depth.empty()) {
+    std::string sentence = ShortDepthWarning(listing->entries.front().depth.path,
+                                             listing->camera.depth_units_per_metre);
+    if (!sentence.empty()) listing->warnings.push_back(std::move(sentence));
   }
   AddWarnings(&*listing);
   Thin(options.step, &listing->entries);

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <string_view>
 #include <system_error>
 
@@ -41,6 +42,43 @@ std::optional<int> FrameNumber(const fs::path& name) {
   const StatusOr<int> number = ParseNatural("", "", std::string_view(stem).substr(begin));
   if (!number.ok()) return std::nullopt;
   return *number;
+}
+
+// Returns whether every name is a time.
+bool AreTimes(const std::vector<fs::path>& names) {
+  return !names.empty() && std::all_of(names.begin(), names.end(), [](const fs::path& name) {
+    return TimeInName(name.stem().string()).has_value();
+  });
+}
+
+// Numbers pictures by time: the times of the first folder are numbered from 0 in ascending order,
+// and a picture of another folder gets the number of the nearest time within 0.02 s.
+std::map<int, std::string> NumberByTime(const std::string& folder,
+                                        const std::vector<fs::path>& names,
+                                        std::vector<double>* times) {
+  constexpr double kMaxTimeDifference = 0.02;
+  std::vector<std::pair<double, std::string>> timed;
+  timed.reserve(names.size());
+  for (const fs::path& name : names) {
+    timed.emplace_back(*TimeInName(name.stem().string()), JoinPath(folder, name.string()));
+  }
+  std::sort(timed.begin(), timed.end());
+  const bool is_first = times->empty();
+  std::map<int, std::string> pictures;
+  for (const auto& [time_s, path] : timed) {
+    if (is_first) {
+      times->push_back(time_s);
+      pictures.emplace(static_cast<int>(times->size()) - 1, path);
+      continue;
+    }
+    const auto next = std::lower_bound(times->begin(), times->end(), time_s);
+    const bool takes_earlier =
+        next == times->end() || (next != times->begin() && time_s - *(next - 1) < *next - time_s);
+    const auto nearest = takes_earlier ? next - 1 : next;
+    if (std::abs(*nearest - time_s) > kMaxTimeDifference) continue;
+    pictures.emplace(static_cast<int>(nearest - times->begin()), path);
+  }
+  return pictures;
 }
 
 // Returns the path of a number, or an empty path.
@@ -96,6 +134,20 @@ StatusOr<std::pair<int, int>> ReadPictureSize(const std::string& path) {
   return std::make_pair(depth->width(), depth->height());
 }
 
+std::string ShortDepthWarning(const std::string& path, double units_per_metre) {
+  // The number of bits stands behind width and height.
+  constexpr std::size_t kBits = 24;
+  std::array<char, kBits + 1> header{};
+  std::ifstream file(path, std::ios::binary);
+  file.read(header.data(), header.size());
+  if (!file || std::string_view(header.data(), 4) != "\x89PNG" || header[kBits] != 8) return "";
+  std::ostringstream text;
+  text << path << ": the depth has 8 bits: steps of " << 1e3 / units_per_metre
+       << " mm, and nothing beyond " << 255e3 / units_per_metre
+       << " mm; what was measured finer or farther is lost, expected pictures of 16 bits";
+  return text.str();
+}
+
 Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCamera* camera) {
   Status first_error = Status::Ok();
   for (const SequenceEntry& entry : entries) {
@@ -111,9 +163,25 @@ Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCam
   return first_error;
 }
 
+std::optional<double> TimeInName(const std::string& stem) {
+  constexpr std::size_t kFewestDigits = 11;
+  const std::size_t dot = stem.find('.');
+  const bool is_number = !stem.empty() &&
+                         stem.find_first_not_of("0123456789.") == std::string::npos && dot != 0 &&
+                         dot + 1 != stem.size() && stem.find('.', dot + 1) == std::string::npos;
+  if (!is_number || (dot == std::string::npos && stem.size() < kFewestDigits)) return std::nullopt;
+  const std::optional<double> number = ParseDouble(stem);
+  if (!number.has_value() || dot != std::string::npos) return number;
+  // Times of this century have 10 digits of seconds.
+  double unit = 1e-3;
+  for (std::size_t digits = 15; digits < stem.size(); digits += 3) unit *= 1e-3;
+  return *number * unit;
+}
+
 StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& folder,
                                                           bool lossless_only,
-                                                          std::vector<std::string>* warnings) {
+                                                          std::vector<std::string>* warnings,
+                                                          std::vector<double>* times) {
   std::error_code error;
   std::vector<fs::path> names;
   fs::directory_iterator file(folder, error);
@@ -128,6 +196,7 @@ StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& fol
   }
   if (error) return Status::Error(folder + ": cannot be listed: " + error.message());
   std::sort(names.begin(), names.end());
+  if (times != nullptr && AreTimes(names)) return NumberByTime(folder, names, times);
 
   std::map<int, std::string> pictures;
   int num_without_number = 0;
@@ -155,10 +224,11 @@ StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders) {
     return Status::Error(folders.depth + ": no such folder, expected depth pictures in it");
   }
   SequenceListing listing;
-  const auto list = [&listing](const std::string& folder, bool lossless_only) {
+  std::vector<double> times;
+  const auto list = [&](const std::string& folder, bool lossless_only) {
     using Pictures = std::map<int, std::string>;
     if (!IsFolder(folder)) return StatusOr<Pictures>(Pictures());
-    return ListNumberedPictures(folder, lossless_only, &listing.warnings);
+    return ListNumberedPictures(folder, lossless_only, &listing.warnings, &times);
   };
   const StatusOr<std::map<int, std::string>> depths = list(folders.depth, true);
   if (!depths.ok()) return depths.status();
@@ -173,7 +243,7 @@ StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders) {
   for (const auto& [number, path] : *depths) {
     SequenceEntry entry;
     entry.number = number;
-    entry.time_s = number;
+    entry.time_s = times.empty() ? number : times[static_cast<std::size_t>(number)];
     entry.depth.path = path;
     entry.color.path = PathOf(*colors, number);
     entry.mask.path = PathOf(*masks, number);
@@ -187,9 +257,10 @@ StatusOr<SequenceListing> ListPictureFolders(const PictureFolders& folders) {
 StatusOr<SequenceListing> ListStereoFolders(const PictureFolders& folders) {
   SequenceListing listing;
   using Pictures = std::map<int, std::string>;
-  const auto list = [&listing](const std::string& folder, bool lossless_only) {
+  std::vector<double> times;
+  const auto list = [&](const std::string& folder, bool lossless_only) {
     if (!IsFolder(folder)) return StatusOr<Pictures>(Pictures());
-    return ListNumberedPictures(folder, lossless_only, &listing.warnings);
+    return ListNumberedPictures(folder, lossless_only, &listing.warnings, &times);
   };
   Pictures lefts, rights;
   const std::pair<const std::string*, Pictures*> sides[] = {{&folders.color, &lefts},
@@ -216,7 +287,7 @@ StatusOr<SequenceListing> ListStereoFolders(const PictureFolders& folders) {
     if (rights.count(number) == 0) continue;
     SequenceEntry entry;
     entry.number = number;
-    entry.time_s = number;
+    entry.time_s = times.empty() ? number : times[static_cast<std::size_t>(number)];
     entry.color.path = path;
     entry.right.path = rights[number];
     entry.mask.path = PathOf(*masks, number);

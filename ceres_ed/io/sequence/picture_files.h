@@ -6,6 +6,7 @@
 #include <ceres_ed/util/status.h>
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -26,16 +27,28 @@ bool IsEmptyFolder(const std::string& path);
 // Errors are as those of ReadDepthImage().
 StatusOr<std::pair<int, int>> ReadPictureSize(const std::string& path);
 
+// Returns a sentence if the PNG files of depth have 8 bits, which hold no more than 255 units;
+// otherwise an empty text.
+std::string ShortDepthWarning(const std::string& path, double units_per_metre);
+
 // Sets the camera's size from the first frame whose depth can be read. It is an error if there is
 // none.
 Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCamera* camera);
 
+// Returns the time in seconds if a name without ending is one: seconds with a fraction
+// (1551915398.6757), or milli-, micro- or nanoseconds as a whole number of at least 11 digits.
+std::optional<double> TimeInName(const std::string& stem);
+
 // Returns the pictures of a folder (PNG, and JPEG unless `lossless_only`) by the number in the
 // digits at the end of their names. Adds a warning if there are names without a number. It is an
-// error if two files have the same number or if the folder can't be listed.
+// error if two files have the same number or if the folder can't be listed. If `times` is not null
+// and every name is a time, pictures are numbered from 0 in the order of time, and the times are
+// written to `times`; for a further folder, `times` has those of the first one, and its pictures
+// get the number of the nearest time within 0.02 s.
 StatusOr<std::map<int, std::string>> ListNumberedPictures(const std::string& folder,
                                                           bool lossless_only,
-                                                          std::vector<std::string>* warnings);
+                                                          std::vector<std::string>* warnings,
+                                                          std::vector<double>* times = nullptr);
 
 // The paths of folders of numbered images; empty if there is none.
 struct PictureFolders {

@@ -1,6 +1,7 @@
 #include "ceres_ed/io/sequence/picture_reader.h"
 
 #include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/video/video_file.h>
 
 #include <string>
 #include <utility>
@@ -56,19 +57,19 @@ StatusOr<Image<Pixel>> Cut(const PictureSource& source, StatusOr<Image<Pixel>> r
   return cut;
 }
 
-Status NoVideo(const PictureSource& source) {
-  return Status::Error(source.path + ": is a video, expected files of single pictures");
+// Returns all of the picture that a source is a part of.
+StatusOr<ColorImage> ReadWhole(const PictureSource& source) {
+  return source.video_frame >= 0 ? ReadVideoFrame(source.path, source.video_frame)
+                                 : ReadColorImage(source.path);
 }
 
 }  // namespace
 
 StatusOr<ColorImage> ReadColor(const PictureSource& source) {
-  if (source.video_frame >= 0) return NoVideo(source);
-  return Cut(source, ReadColorImage(source.path));
+  return Cut(source, ReadWhole(source));
 }
 
 StatusOr<MaskImage> ReadMask(const PictureSource& source, MaskMeaning meaning) {
-  if (source.video_frame >= 0) return NoVideo(source);
   StatusOr<MaskImage> mask = Cut(source, ReadMaskImage(source.path));
   if (mask.ok() && meaning == MaskMeaning::kLeftOut) {
     for (auto& pixel : mask->pixels()) pixel = pixel == 0 ? 1 : 0;
@@ -77,18 +78,9 @@ StatusOr<MaskImage> ReadMask(const PictureSource& source, MaskMeaning meaning) {
 }
 
 StatusOr<DepthImage> ReadDepth(const PictureSource& source,
-                               DepthEncoding encoding,
                                double units_per_metre,
                                int* saturated) {
-  if (source.video_frame >= 0) return NoVideo(source);
-  switch (encoding) {
-    case DepthEncoding::kPicture:
-      return Cut(source, ReadDepthImage(source.path, units_per_metre, saturated));
-    case DepthEncoding::kTiff:
-    case DepthEncoding::kNumpy:
-      break;
-  }
-  return Status::Error(source.path + ": depth of this kind can't be read, expected a PNG");
+  return Cut(source, ReadDepthImage(source.path, units_per_metre, saturated));
 }
 
 }  // namespace ceres_ed

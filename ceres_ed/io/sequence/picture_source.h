@@ -21,19 +21,9 @@ struct PictureSource {
   bool empty() const { return path.empty(); }
 };
 
-// How a file stores depth. Whatever it is, metres = stored number / units per metre.
-enum class DepthEncoding {
-  // A PNG (or another picture) with 8 or 16 bits, 0 = none.
-  kPicture,
-  // A TIFF with one channel of 16 bits or of floats, or with the three channels X Y Z of floats.
-  // Numbers that are not finite, and 0, mean none.
-  kTiff,
-  // A .npy array of numbers, rows x columns. Numbers that are not finite, and 0, mean none.
-  kNumpy,
-};
-
-// What a pixel of a mask that is not zero means.
-enum class MaskMeaning { kUsed, kLeftOut };
+// What a pixel of a mask that is not zero means: tissue, which is used, or a tool, which is left
+// out. Some layouts say neither.
+enum class MaskMeaning { kUsed, kLeftOut, kUnknown };
 
 }  // namespace ceres_ed
 

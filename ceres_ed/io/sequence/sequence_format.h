@@ -16,7 +16,8 @@ struct SequenceFormatReader {
   SequenceFormat format = SequenceFormat::kAuto;
   // The files by which the layout is recognised, for the user: "there is <sign>".
   const char* sign = "";
-  // The files that the layout needs, for the message when no layout is recognised.
+  // The files that the layout needs, for the message when no layout is recognised. Empty for a data
+  // set, which is named only: nobody arranges files of his own like that.
   const char* needs = "";
   // Returns whether a folder has this layout. It reads no picture, and must not take a folder of
   // another layout for its own; the first layout in the table that recognises a folder is taken.
@@ -36,11 +37,66 @@ bool IsTumSequence(const std::string& directory);
 StatusOr<SequenceListing> ListTumSequence(const std::string& directory);
 bool IsHamlynSequence(const std::string& directory);
 StatusOr<SequenceListing> ListHamlynSequence(const std::string& directory);
+bool IsStereoVideo(const std::string& directory);
+StatusOr<SequenceListing> ListStereoVideo(const std::string& directory);
+bool IsStereoMis(const std::string& directory);
+StatusOr<SequenceListing> ListStereoMis(const std::string& directory);
+bool IsScared(const std::string& directory);
+StatusOr<SequenceListing> ListScared(const std::string& directory);
+bool IsDeform3dgs(const std::string& directory);
+StatusOr<SequenceListing> ListDeform3dgs(const std::string& directory);
+bool IsEndoNerf(const std::string& directory);
+StatusOr<SequenceListing> ListEndoNerf(const std::string& directory);
+bool IsD4d(const std::string& directory);
+StatusOr<SequenceListing> ListD4d(const std::string& directory);
+bool IsServCt(const std::string& directory);
+StatusOr<SequenceListing> ListServCt(const std::string& directory);
+bool IsSurgT(const std::string& directory);
+StatusOr<SequenceListing> ListSurgT(const std::string& directory);
+bool IsStir(const std::string& directory);
+StatusOr<SequenceListing> ListStir(const std::string& directory);
+bool IsHamlynStereo(const std::string& directory);
+StatusOr<SequenceListing> ListHamlynStereo(const std::string& directory);
+bool IsC3vd(const std::string& directory);
+StatusOr<SequenceListing> ListC3vd(const std::string& directory);
+bool IsDeepDeform(const std::string& directory);
+StatusOr<SequenceListing> ListDeepDeform(const std::string& directory);
+bool IsSuper(const std::string& directory);
+StatusOr<SequenceListing> ListSuper(const std::string& directory);
+bool IsSevenScenes(const std::string& directory);
+StatusOr<SequenceListing> ListSevenScenes(const std::string& directory);
 
 // The layouts in the order in which they are tried on a folder. A TUM folder may also have a
-// camera.txt, so it comes before the native layout, and so may a folder of native stereo.
+// camera.txt, so it comes before the native layout, and so may a folder of native stereo. The data
+// sets that have a file of a name of their own come before the layouts that share one.
 inline constexpr SequenceFormatReader kSequenceFormats[] = {
     {SequenceFormat::kTum, "depth.txt", "depth.txt", IsTumSequence, ListTumSequence},
+    {SequenceFormat::kStereoVideo,
+     "stereo.txt or calibration.yaml, and a video",
+     "stereo.txt or calibration.yaml beside one or two videos",
+     IsStereoVideo,
+     ListStereoVideo},
+    {SequenceFormat::kStereoMis, "StereoCalibration.ini", "", IsStereoMis, ListStereoMis},
+    {SequenceFormat::kScared, "endoscope_calibration.yaml", "", IsScared, ListScared},
+    {SequenceFormat::kDeform3dgs,
+     "poses_bounds.npy with cy and cx",
+     "",
+     IsDeform3dgs,
+     ListDeform3dgs},
+    {SequenceFormat::kEndoNerf, "poses_bounds.npy", "", IsEndoNerf, ListEndoNerf},
+    {SequenceFormat::kD4d, "left_images_rect/", "", IsD4d, ListD4d},
+    {SequenceFormat::kServCt, "Left_rectified/", "", IsServCt, ListServCt},
+    {SequenceFormat::kSurgT, "info.yaml", "", IsSurgT, ListSurgT},
+    {SequenceFormat::kStir, "calib.json", "", IsStir, ListStir},
+    {SequenceFormat::kHamlynStereo, "settings.yaml", "", IsHamlynStereo, ListHamlynStereo},
+    {SequenceFormat::kC3vd, "NNNN_depth.tiff", "", IsC3vd, ListC3vd},
+    {SequenceFormat::kDeepDeform,
+     "intrinsics.txt of 4 x 4 numbers",
+     "",
+     IsDeepDeform,
+     ListDeepDeform},
+    {SequenceFormat::kSuper, "rgb/NNNNNN-left.png", "", IsSuper, ListSuper},
+    {SequenceFormat::kSevenScenes, "frame-NNNNNN.depth.png", "", IsSevenScenes, ListSevenScenes},
     {SequenceFormat::kNativeStereo,
      "stereo.txt",
      "stereo.txt, left/NNNNNN.png and right/NNNNNN.png",
@@ -48,7 +104,7 @@ inline constexpr SequenceFormatReader kSequenceFormats[] = {
      ListNativeStereoSequence},
     {SequenceFormat::kScikitSurgery,
      "calib.left.intrinsic.txt",
-     "calib.left.intrinsic.txt, calib.right.intrinsic.txt, calib.l2r.txt, left/ and right/",
+     "",
      IsScikitSurgerySequence,
      ListScikitSurgerySequence},
     {SequenceFormat::kNative,

@@ -35,7 +35,6 @@ struct SequenceListing {
   // The intrinsics of the camera of `color`, with the size of the images and the format's unit of
   // depth. They are those of rig->left.pinhole if there is a rig and no depth.
   CameraFile camera;
-  DepthEncoding depth_encoding = DepthEncoding::kPicture;
   MaskMeaning mask_meaning = MaskMeaning::kUsed;
   // The two cameras of a stereo sequence. Nothing if the pictures `right` can't be used.
   std::optional<StereoRig> rig;
