@@ -19,17 +19,22 @@ std::map<int, std::string> Depths(const std::string& directory) {
 
 // Sets the nominal camera for pictures of this size.
 Status SetCamera(const std::string& directory, SequenceListing* listing) {
-  StatusOr<std::pair<int, int>> size = ReadPictureSize(listing->entries.front().depth.path);
+  listing->camera.depth_units_per_metre = kUnitsPerMetre;
+  const StatusOr<bool> is_given = UseCameraFile(directory, &listing->camera.camera);
+  if (!is_given.ok()) return is_given.status();
+  if (*is_given) return Status::Ok();
+  const StatusOr<std::pair<int, int>> size = ReadPictureSize(listing->entries.front().depth.path);
   if (!size.ok()) return size.status();
   StereoCalibration nominal;
   nominal.rig.left.pinhole = nominal.rig.right.pinhole = kNominal;
   Status status = FitCalibration(directory, size->first, size->second, &nominal);
   if (!status.ok()) return status;
-  listing->camera = {nominal.rig.left.pinhole, kUnitsPerMetre};
+  listing->camera.camera = nominal.rig.left.pinhole;
   listing->warnings.push_back(
       directory +
       ": the lens is a fisheye, and the pictures are not rectified; a nominal pinhole "
-      "camera is taken, so directions far from the middle of the picture are wrong");
+      "camera is taken, so directions far from the middle of the picture are wrong "
+      "(camera.txt in this folder gives another one)");
   return Status::Ok();
 }
 

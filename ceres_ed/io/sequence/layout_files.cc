@@ -1,5 +1,6 @@
 #include "ceres_ed/io/sequence/layout_files.h"
 
+#include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/picture_reader.h>
 #include <ceres_ed/io/text_rows.h>
@@ -210,6 +211,15 @@ Status FitCalibration(const std::string& path,
     calibration->remarks.push_back(remark.str());
   }
   return Status::Ok();
+}
+
+StatusOr<bool> UseCameraFile(const std::string& directory, PinholeCamera* camera) {
+  const std::string path = JoinPath(directory, "camera.txt");
+  if (!IsFile(path)) return false;
+  const StatusOr<CameraFile> file = ReadCameraFile(path);
+  if (!file.ok()) return file.status();
+  *camera = file->camera;
+  return true;
 }
 
 void SetCalibration(const StereoCalibration& calibration, SequenceListing* listing) {

@@ -65,6 +65,10 @@ Status FitCalibration(const std::string& path,
 // The same for one camera without a size.
 Status FitCamera(const std::string& path, int width, int height, PinholeCamera* camera);
 
+// Reads camera.txt of a folder, if there is one: it replaces the camera that a layout assumes.
+// Returns whether it was there.
+StatusOr<bool> UseCameraFile(const std::string& directory, PinholeCamera* camera);
+
 // Sets rig, camera and warnings of a listing from a calibration.
 void SetCalibration(const StereoCalibration& calibration, SequenceListing* listing);
 

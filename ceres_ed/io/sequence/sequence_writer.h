@@ -82,9 +82,50 @@ struct SequenceLayout {
 StatusOr<std::unique_ptr<SequenceWriter>> CreateNativeWriter(const std::string& directory,
                                                              const SequenceWriterOptions& options);
 
+// The layouts of data sets, each in a file of its own.
+StatusOr<std::unique_ptr<SequenceWriter>> CreateStereoMisWriter(
+    const std::string& directory, const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateScaredWriter(const std::string& directory,
+                                                             const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateSurgTWriter(const std::string& directory,
+                                                            const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateStirWriter(const std::string& directory,
+                                                           const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateHamlynStereoWriter(
+    const std::string& directory, const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateServCtWriter(const std::string& directory,
+                                                             const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateD4dWriter(const std::string& directory,
+                                                          const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateEndoNerfWriter(
+    const std::string& directory, const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateDeform3dgsWriter(
+    const std::string& directory, const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateC3vdWriter(const std::string& directory,
+                                                           const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateDeepDeformWriter(
+    const std::string& directory, const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateSuperWriter(const std::string& directory,
+                                                            const SequenceWriterOptions& options);
+StatusOr<std::unique_ptr<SequenceWriter>> CreateSevenScenesWriter(
+    const std::string& directory, const SequenceWriterOptions& options);
+
 inline constexpr SequenceLayout kSequenceLayouts[] = {
     {SequenceFormat::kNative, false, CreateNativeWriter},
-    {SequenceFormat::kNativeStereo, true, CreateNativeWriter}};
+    {SequenceFormat::kNativeStereo, true, CreateNativeWriter},
+    {SequenceFormat::kStereoMis, true, CreateStereoMisWriter},
+    {SequenceFormat::kScared, true, CreateScaredWriter},
+    {SequenceFormat::kSurgT, true, CreateSurgTWriter},
+    {SequenceFormat::kStir, true, CreateStirWriter},
+    {SequenceFormat::kHamlynStereo, true, CreateHamlynStereoWriter},
+    {SequenceFormat::kServCt, true, CreateServCtWriter},
+    {SequenceFormat::kD4d, true, CreateD4dWriter},
+    {SequenceFormat::kEndoNerf, false, CreateEndoNerfWriter},
+    {SequenceFormat::kDeform3dgs, false, CreateDeform3dgsWriter},
+    {SequenceFormat::kC3vd, false, CreateC3vdWriter},
+    {SequenceFormat::kDeepDeform, false, CreateDeepDeformWriter},
+    {SequenceFormat::kSuper, false, CreateSuperWriter},
+    {SequenceFormat::kSevenScenes, false, CreateSevenScenesWriter}};
 
 // Returns the layout of that name, for kAuto the native one; null if it can't be written, or not
 // for stereo pictures (or for depth, by `is_stereo`).

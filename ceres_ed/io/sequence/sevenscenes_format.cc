@@ -11,6 +11,24 @@ constexpr double kMillimetresPerMetre = 1000.0;
 // The intrinsics that the web page of the data set names.
 constexpr PinholeCamera kNominal = {585.0, 585.0, 320.0, 240.0, 640, 480};
 
+Status SetCamera(const std::string& directory, SequenceListing* listing) {
+  listing->camera.depth_units_per_metre = kMillimetresPerMetre;
+  const StatusOr<bool> is_given = UseCameraFile(directory, &listing->camera.camera);
+  if (!is_given.ok()) return is_given.status();
+  if (*is_given) return Status::Ok();
+  const StatusOr<std::pair<int, int>> size = ReadPictureSize(listing->entries.front().depth.path);
+  if (!size.ok()) return size.status();
+  StereoCalibration nominal;
+  nominal.rig.left.pinhole = nominal.rig.right.pinhole = kNominal;
+  Status status = FitCalibration(directory, size->first, size->second, &nominal);
+  if (!status.ok()) return status;
+  listing->camera.camera = nominal.rig.left.pinhole;
+  listing->warnings.push_back(directory +
+                              ": the intrinsics are the nominal ones of 7-Scenes, 585 585 320 240 "
+                              "at 640 x 480 (camera.txt in this folder gives others)");
+  return Status::Ok();
+}
+
 }  // namespace
 
 bool IsSevenScenes(const std::string& directory) {
@@ -42,16 +60,8 @@ StatusOr<SequenceListing> ListSevenScenes(const std::string& directory) {
   }
   listing.has_color = !colors.empty();
   listing.has_poses = !poses.empty();
-  const StatusOr<std::pair<int, int>> size = ReadPictureSize(depths.begin()->second);
-  if (!size.ok()) return size.status();
-  StereoCalibration nominal;
-  nominal.rig.left.pinhole = nominal.rig.right.pinhole = kNominal;
-  Status status = FitCalibration(directory, size->first, size->second, &nominal);
+  Status status = SetCamera(directory, &listing);
   if (!status.ok()) return status;
-  listing.camera = {nominal.rig.left.pinhole, kMillimetresPerMetre};
-  listing.warnings.push_back(directory +
-                             ": the intrinsics are the nominal ones of 7-Scenes, 585 585 "
-                             "320 240 at 640 x 480");
   return listing;
 }
 

@@ -1,6 +1,5 @@
 // SuPer: rgb/NNNNNN-left.png and depth/ of .npy or .png files. The intrinsics stand in the program
 // of the data set, not in its files.
-#include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/sequence/layout_files.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_format.h>
@@ -29,12 +28,9 @@ std::map<int, std::string> Depths(const std::string& directory, double* units_pe
 
 Status SetCamera(const std::string& directory, SequenceListing* listing) {
   const std::string path = JoinPath(directory, "camera.txt");
-  if (IsFile(path)) {
-    const StatusOr<CameraFile> camera = ReadCameraFile(path);
-    if (!camera.ok()) return camera.status();
-    listing->camera.camera = camera->camera;
-    return Status::Ok();
-  }
+  const StatusOr<bool> is_given = UseCameraFile(directory, &listing->camera.camera);
+  if (!is_given.ok()) return is_given.status();
+  if (*is_given) return Status::Ok();
   const StatusOr<std::pair<int, int>> size = ReadSourceSize(listing->entries.front().color);
   if (!size.ok()) return size.status();
   StereoCalibration nominal;

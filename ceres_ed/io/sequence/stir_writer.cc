@@ -1,0 +1,46 @@
+// Writes STIR: one clip with a video for each camera.
+#include <ceres_ed/io/camera_io.h>
+#include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/sequence/layout_writer.h>
+
+namespace ceres_ed {
+namespace {
+
+class StirWriter : public LayoutWriter {
+ public:
+  StirWriter(const std::string& directory, const SequenceWriterOptions& options)
+      : LayoutWriter(directory, options, /*first_number=*/0) {}
+
+ protected:
+  Status WritePictures(int /*number*/, const FrameToWrite& frame) override {
+    Status status = AddToVideo("left/seq00/frames/0ms-1000ms.mp4", *frame.color);
+    return status.ok() ? AddToVideo("right/seq00/frames/0ms-1000ms.mp4", *frame.right) : status;
+  }
+
+  Status WriteCalibration() override {
+    const StereoRig& rig = *options().rig;
+    Status status = WritePosesFile(Path("poses.txt"), FramePoses());
+    if (!status.ok()) return status;
+    const auto lens = [](const LensCamera& camera) {
+      return JsonMatrix(Eigen::Map<const Eigen::Matrix<double, 1, 5>>(camera.distortion.data()));
+    };
+    return WriteText(
+        "calib.json",
+        "{\"leftcameramat\": " + JsonMatrix(CameraMatrixOf(rig.left.pinhole)) +
+            ",\n\"rightcameramat\": " + JsonMatrix(CameraMatrixOf(rig.right.pinhole)) +
+            ",\n\"leftdistortioncoeffs\": " + lens(rig.left) +
+            ",\n\"rightdistortioncoeffs\": " + lens(rig.right) +
+            ",\n\"rotation\": " + JsonMatrix(rig.right_from_left.rotation.toRotationMatrix()) +
+            ",\n\"translation\": " + JsonMatrix(rig.right_from_left.translation.transpose()) +
+            "}\n");
+  }
+};
+
+}  // namespace
+
+StatusOr<std::unique_ptr<SequenceWriter>> CreateStirWriter(const std::string& directory,
+                                                           const SequenceWriterOptions& options) {
+  return CreateLayoutWriter<StirWriter>(directory, options);
+}
+
+}  // namespace ceres_ed
