@@ -143,6 +143,22 @@ std::string TrackText(const TrackEvaluation& tracks) {
                      tracks.moved_error->max);
 }
 
+std::string EndPointText(const EndPointError& points) {
+  std::string text = Line("Points of the first frame in the last one: %d of %d followed\n",
+                          points.followed,
+                          points.points);
+  if (!points.error) return text;
+  text += Line("  to the nearest given point: median %.2f px, mean %.2f, max %.2f; within",
+               points.error->p50,
+               points.error->mean,
+               points.error->max);
+  for (std::size_t i = 0; i < kEndPointBounds.size(); ++i) {
+    text += Line(" %.0f px %.0f %%", kEndPointBounds[i], 100.0 * points.within[i]);
+    text += i + 1 < kEndPointBounds.size() ? "," : "\n";
+  }
+  return text;
+}
+
 std::string LogText(const FrameLog& log) {
   const LogSummary summary = SummarizeLog(log);
   std::string text = Line("Log of the run: %zu frames:", log.frames.size());
@@ -182,6 +198,7 @@ std::string SequenceTables(const SequenceFigures& figures) {
   if (figures.camera) append(CameraTable(*figures.camera));
   if (!figures.depth.empty()) append(DepthTable(figures.depth));
   if (figures.tracks) append(TrackText(*figures.tracks));
+  if (figures.end_points) append(EndPointText(*figures.end_points));
   if (figures.log) append(LogText(*figures.log));
   return text;
 }

@@ -7,10 +7,33 @@
 #include <ceres_ed/evaluation/trajectory_evaluation.h>
 #include <ceres_ed/io/results/frames_csv.h>
 
+#include <array>
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace ceres_ed {
+
+// How far points of the first frame are, in the last one, from the nearest points that are given
+// there (STIR). Which of these belongs to which is not known.
+struct EndPointError {
+  // The number of points of the first frame, and of those that could be followed to the last one.
+  int points = 0;
+  int followed = 0;
+  // In pixels; nothing if no point was followed.
+  std::optional<DistanceStatistics> error;
+  // The shares of the followed points within kEndPointBounds.
+  std::array<double, 5> within{};
+};
+// In pixels, as the challenge has them.
+inline constexpr std::array<double, 5> kEndPointBounds = {4.0, 8.0, 16.0, 32.0, 64.0};
+
+// Returns the errors of the points that were followed, of `points_at_start` ones. `given` has at
+// least one point.
+EndPointError CompareEndPoints(int points_at_start,
+                               const std::vector<Eigen::Vector2d>& predicted,
+                               const std::vector<Eigen::Vector2d>& given);
 
 // All measurements of a sequence. Parts that could not be measured are empty.
 struct SequenceFigures {
@@ -18,6 +41,7 @@ struct SequenceFigures {
   std::optional<TrajectoryEvaluation> camera;
   std::vector<DepthAgreement> depth;
   std::optional<TrackEvaluation> tracks;
+  std::optional<EndPointError> end_points;
   std::optional<FrameLog> log;
 };
 

@@ -1,5 +1,6 @@
 #include "ceres_ed/evaluation/sequence_files.h"
 
+#include <ceres_ed/evaluation/layout_truth.h>
 #include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/io/results/trajectory_txt.h>
@@ -104,7 +105,15 @@ StatusOr<SequenceFiles> OpenSequenceFiles(const std::string& folder) {
     StatusOr<std::vector<TrackObservation>> tracks = ReadPictureTracks(tracks_path);
     if (!tracks.ok()) return tracks.status();
     files.tracks = *std::move(tracks);
+  } else if (files.pictures != nullptr) {
+    StatusOr<std::vector<TrackObservation>> tracks =
+        ReadLayoutTracks(folder, *files.pictures, &files.warnings);
+    if (!tracks.ok()) return tracks.status();
+    files.tracks = *std::move(tracks);
   }
+  StatusOr<std::optional<StirPoints>> end_points = ReadStirPoints(folder);
+  if (!end_points.ok()) return end_points.status();
+  files.end_points = *std::move(end_points);
   return StatusOr<SequenceFiles>(std::move(files));
 }
 

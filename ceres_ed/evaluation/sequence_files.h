@@ -9,6 +9,7 @@
 #include <ceres_ed/io/results/frames_csv.h>
 #include <ceres_ed/io/sequence/picture_tracks.h>
 #include <ceres_ed/io/sequence/scene_truth.h>
+#include <ceres_ed/io/sequence/stir_truth.h>
 #include <ceres_ed/stereo/depth_source.h>
 #include <ceres_ed/util/status.h>
 
@@ -34,7 +35,12 @@ struct SequenceFiles {
   // The true camera poses by frame; empty if they are not known.
   std::map<int, CameraPose> true_poses;
   std::optional<SceneTruth> truth;
+  // tracks_2d.csv, or what the layout has instead (layout_truth.h).
   std::vector<TrackObservation> tracks;
+  // The points of STIR at start and end.
+  std::optional<StirPoints> end_points;
+  // Sentences about truth that could not be read.
+  std::vector<std::string> warnings;
 
   // Returns whether the sequence contains the frame: its picture, or its pose if there are no
   // pictures.

@@ -60,6 +60,35 @@ void TrackFollower::TieTo(const std::vector<Candidate>& candidates,
   }
 }
 
+std::optional<Eigen::Vector2d> TrackFollower::PredictTrack(
+    const Track& track,
+    const LiveSnapshot& snapshot,
+    const std::unordered_map<int, std::size_t>& index_of_id) const {
+  Eigen::Vector2d displacement = Eigen::Vector2d::Zero();
+  double weight = 0.0;
+  for (const Tie& tie : track.ties) {
+    const auto index = index_of_id.find(tie.id);
+    if (index == index_of_id.end()) continue;
+    const Eigen::Vector3d& point = snapshot.points[index->second];
+    if (!(point.z() > 0.0)) continue;
+    displacement += tie.weight * (camera_.Project(point) - tie.pixel);
+    weight += tie.weight;
+  }
+  if (weight == 0.0) return std::nullopt;
+  return track.start + displacement / weight;
+}
+
+std::vector<Eigen::Vector2d> TrackFollower::Predict(const LiveSnapshot& snapshot) const {
+  std::unordered_map<int, std::size_t> index_of_id;
+  for (std::size_t i = 0; i < snapshot.size(); ++i) index_of_id.emplace(snapshot.ids[i], i);
+  std::vector<Eigen::Vector2d> pixels;
+  for (const auto& [number, track] : tracks_) {
+    const std::optional<Eigen::Vector2d> pixel = PredictTrack(track, snapshot, index_of_id);
+    if (pixel.has_value()) pixels.push_back(*pixel);
+  }
+  return pixels;
+}
+
 void TrackFollower::Add(const LiveSnapshot& snapshot) {
   CHECK(frames_.empty() || frames_.back().frame < snapshot.frame) << snapshot.frame;
   frames_.emplace_back();
@@ -82,22 +111,13 @@ void TrackFollower::Add(const LiveSnapshot& snapshot) {
     }
     ++frame.tracks;
     track.motion = std::max(track.motion, (observation.pixel - track.start).norm());
-    Eigen::Vector2d displacement = Eigen::Vector2d::Zero();
-    double weight = 0.0;
-    for (const Tie& tie : track.ties) {
-      const auto index = index_of_id.find(tie.id);
-      if (index == index_of_id.end()) continue;
-      const Eigen::Vector3d& point = snapshot.points[index->second];
-      if (!(point.z() > 0.0)) continue;
-      displacement += tie.weight * (camera_.Project(point) - tie.pixel);
-      weight += tie.weight;
-    }
-    if (weight == 0.0) {
+    const std::optional<Eigen::Vector2d> predicted = PredictTrack(track, snapshot, index_of_id);
+    if (!predicted.has_value()) {
       ++frame.lost;
       track.lost = true;
       continue;
     }
-    errors.push_back((track.start + displacement / weight - observation.pixel).norm());
+    errors.push_back((*predicted - observation.pixel).norm());
     track.last_error = errors.back();
   }
   if (!errors.empty()) frame.error = Summarize(errors);

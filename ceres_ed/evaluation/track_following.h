@@ -8,8 +8,10 @@
 #include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/io/sequence/picture_tracks.h>
 
+#include <cstddef>
 #include <map>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include <Eigen/Core>
@@ -77,6 +79,10 @@ class TrackFollower {
   // Returns the errors so far.
   TrackEvaluation Evaluate() const;
 
+  // Returns where the tracks are that are attached to the map, in the picture of a snapshot that
+  // was made later. Tracks that have lost all their map points are left out.
+  std::vector<Eigen::Vector2d> Predict(const LiveSnapshot& snapshot) const;
+
  private:
   struct Tie {
     int id = -1;
@@ -100,6 +106,12 @@ class TrackFollower {
     Eigen::Vector2d pixel;
   };
 
+  // Returns the predicted pixel of a track; nothing if all its map points are removed or behind the
+  // camera. `index_of_id` has the place of each map point in the snapshot.
+  std::optional<Eigen::Vector2d> PredictTrack(
+      const Track& track,
+      const LiveSnapshot& snapshot,
+      const std::unordered_map<int, std::size_t>& index_of_id) const;
   std::vector<Candidate> SeenPoints(const LiveSnapshot& snapshot) const;
   void TieTo(const std::vector<Candidate>& candidates,
              const Eigen::Vector2d& pixel,

@@ -33,6 +33,17 @@ inline double InterpolatedMedian(std::vector<double> values) {
   return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
 }
 
+// Returns the value below which the share `rank` (0 to 1) of the values lies, between the two
+// nearest of them in proportion; 0 if there are no values.
+inline double Percentile(std::vector<double> values, double rank) {
+  if (values.empty()) return 0.0;
+  std::sort(values.begin(), values.end());
+  const double place = rank * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (place - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
 // Returns an estimate of the standard deviation of values that scatter around 0, which outliers
 // hardly change: 1.4826 times the median of the absolute values; 0 if there are no values.
 inline double RobustDeviation(std::vector<double> values) {

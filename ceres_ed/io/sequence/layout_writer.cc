@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -50,7 +51,49 @@ Status LayoutWriter::WriteFrame(const FrameToWrite& frame) {
   poses_.push_back(frame.world_from_camera);
   Status status = WritePictures(number, frame);
   if (status.ok() && frame.truth != nullptr) status = AddTruth(*frame.truth);
+  if (frame.truth != nullptr && frame.depth != nullptr) AddMarks(frame);
   return status;
+}
+
+MarkedPoint LayoutWriter::MarkOf(const FrameToWrite& frame, const Eigen::Vector3d& in_world) const {
+  const PinholeCamera& camera = options_.camera.camera;
+  const CameraPose& pose = frame.world_from_camera;
+  const Eigen::Vector3d in_camera = pose.rotation.conjugate() * (in_world - pose.translation);
+  MarkedPoint mark;
+  mark.depth = in_camera.z();
+  if (!(mark.depth > 0.0)) return mark;
+  mark.pixel = camera.Project(in_camera);
+  const int u = static_cast<int>(std::lround(mark.pixel.x()));
+  const int v = static_cast<int>(std::lround(mark.pixel.y()));
+  // What the camera sees there must be the vertex itself.
+  constexpr double kTolerance = 2e-3;
+  constexpr int kMargin = 12;
+  mark.visible = u >= kMargin && v >= kMargin && u < camera.width - kMargin &&
+                 v < camera.height - kMargin &&
+                 std::abs((*frame.depth)(u, v) - mark.depth) < kTolerance;
+  return mark;
+}
+
+void LayoutWriter::AddMarks(const FrameToWrite& frame) {
+  if (marks_.empty()) {
+    constexpr std::size_t kMost = 12;
+    // Half of the distance at which they would fill the picture.
+    const double distance = 0.12 * options_.camera.camera.width;
+    std::vector<Eigen::Vector2d> pixels;
+    for (std::size_t i = 0; i < frame.truth->size() && marked_.size() < kMost; ++i) {
+      const MarkedPoint mark = MarkOf(frame, (*frame.truth)[i]);
+      const bool is_alone = std::all_of(pixels.begin(), pixels.end(), [&](const auto& pixel) {
+        return (pixel - mark.pixel).norm() > distance;
+      });
+      if (!mark.visible || !is_alone) continue;
+      marked_.push_back(i);
+      pixels.push_back(mark.pixel);
+    }
+  }
+  marks_.emplace_back();
+  for (const std::size_t vertex : marked_) {
+    marks_.back().push_back(MarkOf(frame, (*frame.truth)[vertex]));
+  }
 }
 
 Status LayoutWriter::AddTruth(const std::vector<Eigen::Vector3d>& points) {

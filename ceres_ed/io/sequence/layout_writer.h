@@ -7,11 +7,21 @@
 #include <ceres_ed/io/video/video_module.h>
 #include <ceres_ed/util/status.h>
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace ceres_ed {
+
+// Where a marked piece of the tissue is in a frame.
+struct MarkedPoint {
+  // In the picture of the (left) camera.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();
+  // Along the optical axis, in metres.
+  double depth = 0.0;
+  bool visible = false;
+};
 
 // Keeps what is the same in all layouts: the folder, the poses, and the true surface, which has
 // names of its own (scene_truth.h) and lies beside the files of the data set. A layout derives from
@@ -39,6 +49,10 @@ class LayoutWriter : public SequenceWriter {
   // layout.
   std::vector<FramePose> FramePoses() const;
 
+  // The places of up to a dozen vertices of the truth that are visible in the first frame, for each
+  // frame; empty without truth. Some data sets have such points as their truth.
+  const std::vector<std::vector<MarkedPoint>>& marks() const { return marks_; }
+
   // Returns the path of a file of the layout. Its folder is created.
   std::string Path(const std::string& name) const;
   // Writes a text to a file of the layout.
@@ -58,12 +72,17 @@ class LayoutWriter : public SequenceWriter {
   };
 
   Status AddTruth(const std::vector<Eigen::Vector3d>& points);
+  MarkedPoint MarkOf(const FrameToWrite& frame, const Eigen::Vector3d& in_world) const;
+  void AddMarks(const FrameToWrite& frame);
 
   std::string directory_;
   SequenceWriterOptions options_;
   int first_number_ = 0;
   std::vector<CameraPose> poses_;
   std::unique_ptr<SceneTruthWriter> truth_;
+  // The vertices that are marked.
+  std::vector<std::size_t> marked_;
+  std::vector<std::vector<MarkedPoint>> marks_;
   std::vector<OpenVideo> videos_;
 };
 

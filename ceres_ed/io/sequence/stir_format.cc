@@ -2,6 +2,7 @@
 #include <ceres_ed/io/sequence/layout_files.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_format.h>
+#include <ceres_ed/io/sequence/stir_clip.h>
 
 #include <algorithm>
 #include <cmath>
@@ -103,6 +104,12 @@ bool MakeRectified(StereoRig* rig) {
 }
 
 }  // namespace
+
+StatusOr<std::string> FindStirClip(const std::string& directory) {
+  const StatusOr<Clip> clip = FindClip(directory);
+  if (!clip.ok()) return clip.status();
+  return clip->left.string();
+}
 
 bool IsStir(const std::string& directory) {
   const fs::path folder = Normal(directory);

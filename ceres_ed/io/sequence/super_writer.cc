@@ -4,6 +4,8 @@
 #include <ceres_ed/io/npy_file.h>
 #include <ceres_ed/io/sequence/layout_writer.h>
 
+#include <limits>
+
 namespace ceres_ed {
 namespace {
 
@@ -28,7 +30,18 @@ class SuperWriter : public LayoutWriter {
 
   Status WriteCalibration() override {
     Status status = WriteCameraFile(Path("camera.txt"), {options().camera.camera, 1.0});
-    return status.ok() ? WritePosesFile(Path("poses.txt"), FramePoses()) : status;
+    if (status.ok()) status = WritePosesFile(Path("poses.txt"), FramePoses());
+    if (!status.ok() || marks().empty()) return status;
+    NpyArray points;
+    points.shape = {marks().size(), marks().front().size(), 2};
+    for (const std::vector<MarkedPoint>& of_frame : marks()) {
+      for (const MarkedPoint& mark : of_frame) {
+        constexpr double kHidden = std::numeric_limits<double>::quiet_NaN();
+        points.values.push_back(mark.visible ? mark.pixel.x() : kHidden);
+        points.values.push_back(mark.visible ? mark.pixel.y() : kHidden);
+      }
+    }
+    return WriteNpyFile(Path("rgb/left_pts.npy"), points);
   }
 };
 

@@ -2,6 +2,10 @@
 #include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/image_io.h>
 #include <ceres_ed/io/sequence/layout_writer.h>
+#include <ceres_ed/io/sequence/surgt_truth.h>
+
+#include <algorithm>
+#include <cstddef>
 
 namespace ceres_ed {
 namespace {
@@ -22,10 +26,40 @@ class SurgTWriter : public LayoutWriter {
     if (!status.ok()) return status;
     status = WritePosesFile(Path("poses.txt"), FramePoses());
     if (!status.ok()) return status;
-    return WriteText("info.yaml",
-                     "name_ground_truth: []\nname_video: video.mp4\nresolution:\n  height: " +
-                         std::to_string(camera.height) + "\n  width: " +
-                         std::to_string(camera.width) + "\nvideo_stack: vertical\n");
+    const std::size_t num_tracks =
+        marks().empty() ? 0 : std::min<std::size_t>(3, marks().front().size());
+    std::string names;
+    for (std::size_t i = 0; i < num_tracks; ++i) {
+      const std::string name = "gt_rectified_" + std::to_string(i) + ".yaml";
+      status = WriteText(name, BoxTrackText(Boxes(i), num_frames()));
+      if (!status.ok()) return status;
+      names += "\n- " + name;
+    }
+    return WriteText(
+        "info.yaml",
+        "name_ground_truth:" + (names.empty() ? " []" : names) +
+            "\nname_video: video.mp4\nresolution:\n  height: " + std::to_string(camera.height) +
+            "\n  width: " + std::to_string(camera.width) + "\nvideo_stack: vertical\n");
+  }
+
+ private:
+  // Returns boxes of 20 x 20 pixels around a marked point, in both pictures.
+  BoxTrack Boxes(std::size_t point) const {
+    constexpr double kSize = 20.0;
+    const StereoRig& rig = *options().rig;
+    const double focal_times_baseline =
+        rig.left.pinhole.fx * rig.right_from_left.translation.norm();
+    BoxTrack track;
+    for (std::size_t frame = 0; frame < marks().size(); ++frame) {
+      const MarkedPoint& mark = marks()[frame][point];
+      if (!mark.visible) continue;
+      StereoBox box;
+      box.left = {mark.pixel.x() - kSize / 2, mark.pixel.y() - kSize / 2, kSize, kSize};
+      box.right = box.left;
+      box.right.u -= focal_times_baseline / mark.depth;
+      track.boxes[static_cast<int>(frame)] = box;
+    }
+    return track;
   }
 };
 

@@ -15,6 +15,20 @@ namespace {
 constexpr SequenceEvaluationOptions kOptions;
 constexpr TrackFollowingOptions kTrackOptions;
 
+// Returns what follows the points of the first frame to the last one, where they are given again;
+// nothing if they are not given.
+std::optional<TrackFollower> FollowEndPoints(const SequenceFiles& sequence) {
+  if (!sequence.end_points || sequence.end_points->end.empty() || sequence.index_of_frame.empty()) {
+    return std::nullopt;
+  }
+  std::vector<TrackObservation> starts;
+  const int first = sequence.index_of_frame.begin()->first;
+  for (const Eigen::Vector2d& pixel : sequence.end_points->start) {
+    starts.push_back({first, static_cast<int>(starts.size()), pixel});
+  }
+  return TrackFollower(sequence.camera, starts, kTrackOptions);
+}
+
 StatusOr<SequenceFigures> Measure(const SequenceFiles& sequence,
                                   const ResultFiles& result,
                                   RunObserver* observer,
@@ -26,6 +40,8 @@ StatusOr<SequenceFigures> Measure(const SequenceFiles& sequence,
   if (sequence.truth) truth.emplace(camera, *sequence.truth, kOptions);
   std::optional<TrackFollower> tracks;
   if (!sequence.tracks.empty()) tracks.emplace(camera, sequence.tracks, kTrackOptions);
+
+  std::optional<TrackFollower> end_points = FollowEndPoints(sequence);
 
   const int total = static_cast<int>(result.live_paths.size());
   int done = 0;
@@ -41,6 +57,14 @@ StatusOr<SequenceFigures> Measure(const SequenceFiles& sequence,
     if (!depth.ok()) return depth.status();
     if (*depth) figures.depth.push_back(CompareWithDepth(camera, *snapshot, **depth, kOptions));
     if (tracks) tracks->Add(*snapshot);
+    if (end_points) {
+      end_points->Add(*snapshot);
+      if (frame == sequence.index_of_frame.rbegin()->first) {
+        figures.end_points = CompareEndPoints(static_cast<int>(sequence.end_points->start.size()),
+                                              end_points->Predict(*snapshot),
+                                              sequence.end_points->end);
+      }
+    }
     observer->OnProgress(++done, total, "frame " + std::to_string(frame));
   }
   if (tracks) figures.tracks = tracks->Evaluate();
@@ -71,6 +95,7 @@ Outcome EvaluateSequence(const EvalSettings& settings, EvaluateObserver* observe
       LoadResultFiles(settings.result, settings.sequence, *sequence);
   if (!result.ok()) return Outcome::BadInput(result.status());
   std::vector<std::string> warnings = result->warnings;
+  warnings.insert(warnings.end(), sequence->warnings.begin(), sequence->warnings.end());
   const StatusOr<SequenceFigures> figures = Measure(*sequence, *result, observer, &warnings);
   if (!figures.ok()) return Outcome::BadInput(figures.status());
 

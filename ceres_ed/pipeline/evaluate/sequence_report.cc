@@ -2,7 +2,9 @@
 
 #include <ceres_ed/evaluation/run_log.h>
 
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace ceres_ed {
@@ -99,6 +101,17 @@ ordered_json TracksReport(const TrackEvaluation& tracks) {
           {"frames", frames}};
 }
 
+ordered_json EndPointsReport(const EndPointError& error) {
+  ordered_json within = ordered_json::object();
+  for (std::size_t i = 0; i < kEndPointBounds.size(); ++i) {
+    within[std::to_string(static_cast<int>(kEndPointBounds[i]))] = error.within[i];
+  }
+  return {{"points", error.points},
+          {"followed", error.followed},
+          {"error", StatisticsReport(error.error)},
+          {"within_px", within}};
+}
+
 ordered_json LogReport(const FrameLog& log) {
   const LogSummary summary = SummarizeLog(log);
   ordered_json times = ordered_json::object();
@@ -125,6 +138,7 @@ ordered_json SequenceReport(const SequenceFigures& figures) {
                         {"best_alignment", TrajectoryReport(figures.camera->best_alignment)}};
   }
   if (figures.tracks) report["tracks_2d"] = TracksReport(*figures.tracks);
+  if (figures.end_points) report["end_points"] = EndPointsReport(*figures.end_points);
   if (figures.log) report["log"] = LogReport(*figures.log);
   return report;
 }

@@ -8,10 +8,12 @@
 #include <ceres_ed/version.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <numeric>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <sys/resource.h>
@@ -124,6 +126,24 @@ ordered_json TimeReport(const SlamRun& run) {
   return report;
 }
 
+// Returns how long after its pictures were there the result of a frame was there. Pictures are read
+// and compared beside the tracking of the frame before.
+ordered_json LatencyReport(const SlamRun& run) {
+  std::vector<double> latencies_ms;
+  for (const FrameRecord& record : *run.records) {
+    if (Is(record, FrameStatus::kSkipped)) continue;
+    const double stereo_s = run.sequence->is_stereo() ? record["t_stereo"] : 0.0;
+    const double latency_ms = 1e3 * (record["t_total"] + stereo_s);
+    if (std::isfinite(latency_ms)) latencies_ms.push_back(latency_ms);
+  }
+  ordered_json report = ordered_json::object();
+  for (const auto& [name, rank] :
+       {std::pair("p50", 0.5), std::pair("p95", 0.95), std::pair("p99", 0.99)}) {
+    report[name] = Percentile(latencies_ms, rank);
+  }
+  return report;
+}
+
 }  // namespace
 
 ordered_json SlamReport(const SlamRun& run) {
@@ -146,6 +166,7 @@ ordered_json SlamReport(const SlamRun& run) {
             {"features", options.features && run.sequence->has_color()}}},
           {"rms_plane", Statistics(ColumnOf(*run.records, "rms_plane"))},
           {"time_s", TimeReport(run)},
+          {"latency_ms", LatencyReport(run)},
           {"memory_peak_mib", PeakMemoryMib()},
           {"memory", MemoryReport(slam)},
           {"threads", options.num_threads},

@@ -3,6 +3,7 @@
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/slam/challenge.h>
 #include <ceres_ed/pipeline/slam/slam_output.h>
 #include <ceres_ed/pipeline/slam/slam_session.h>
 #include <ceres_ed/pipeline/slam/warning_log.h>
@@ -56,6 +57,10 @@ Outcome CheckOutputFolder(const SlamSettings& settings) {
 }  // namespace
 
 Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* observer) {
+  if (settings.predict != Challenge::kNone && !settings.track.empty()) {
+    return Outcome::Usage("--predict=" + NameOf(settings.predict) +
+                          " with --track=" + settings.track + ", expected one of them");
+  }
   EnergyRegistry registry;
   const std::vector<EnergySpec>& energies = settings.options.levels.energies;
   Outcome outcome = LoadEnergies(settings.plugin, energies, &registry);
@@ -80,6 +85,10 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   // Create the tracker and run it.
   StatusOr<std::vector<NamedPoint>> points = LoadPoints(settings.track, &warnings);
   if (!points.ok()) return Outcome::BadInput(points.status());
+  const StatusOr<ChallengePoints> challenge =
+      ChallengePoints::Load(settings, **sequence, &warnings);
+  if (!challenge.ok()) return Outcome::BadInput(challenge.status());
+  if (settings.predict != Challenge::kNone) points = challenge->points();
   const StatusOr<std::unique_ptr<DeformableSlam>> slam =
       DeformableSlam::Create((*sequence)->camera(), settings.options, registry);
   if (!slam.ok()) {
@@ -87,7 +96,14 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   }
   SlamSession session(settings, **sequence, registry, slam->get(), &warnings, observer, clock);
   outcome = session.Start(*std::move(points));
-  return outcome.done() ? session.Run() : outcome;
+  if (!outcome.done()) return outcome;
+  outcome = session.Run();
+  const bool has_result = outcome.done() || outcome.code == ExitCode::kStoppedEarly;
+  if (has_result) {
+    const Status status = challenge->Write(settings.output, **sequence);
+    if (!status.ok()) return Outcome::BadInput(status);
+  }
+  return outcome;
 }
 
 }  // namespace ceres_ed

@@ -179,6 +179,7 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   }
   // Bind the points to follow to the first map.
   if (!points_.empty() && slam_->unit() > 0.0) {
+    if (settings_.predict != Challenge::kNone) DropPointsOffTheMap();
     StatusOr<TrackedPoints> bound = TrackedPoints::Bind(points_, *slam_, sequence_.camera());
     if (!bound.ok()) {
       return Outcome::BadInput(Status::Error(settings_.track + ": " + bound.status().message()));
@@ -196,6 +197,17 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   const Status status = output_->WriteFrame(*record, *slam_, options);
   (*record)["t_write"] = timer.Seconds();
   return status.ok() ? Outcome::Done() : Outcome::BadInput(status);
+}
+
+void SlamSession::DropPointsOffTheMap() {
+  const auto is_off = [this](const NamedPoint& point) {
+    const StatusOr<TrackedPoints> bound = TrackedPoints::Bind({point}, *slam_, sequence_.camera());
+    if (!bound.ok()) {
+      warnings_->Add("predict", bound.status().message() + "; it follows the nearest other point");
+    }
+    return !bound.ok();
+  };
+  points_.erase(std::remove_if(points_.begin(), points_.end(), is_off), points_.end());
 }
 
 Outcome SlamSession::End(Outcome outcome) {

@@ -61,6 +61,8 @@ class SlamSession {
   void NoteStereo(const DepthFrame& frame, FrameRecord* record) const;
   // Tracks the frame, fills in its record, and writes everything but its row.
   Outcome Track(const DepthFrame& frame, int index, FrameRecord* record);
+  // Removes the points of a challenge that are too far from the map, with a warning for each.
+  void DropPointsOffTheMap();
   // Writes the results and returns how the run ended.
   Outcome End(Outcome outcome);
   SlamRun MakeRun() const;

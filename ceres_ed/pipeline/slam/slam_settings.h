@@ -6,11 +6,20 @@
 #include <ceres_ed/pipeline/run_flag.h>
 #include <ceres_ed/slam/slam_options.h>
 #include <ceres_ed/stereo/stereo_options.h>
+#include <ceres_ed/util/named_values.h>
 
+#include <array>
 #include <limits>
 #include <string>
 
 namespace ceres_ed {
+
+// The challenge whose files are written (challenge.h).
+enum class Challenge { kNone, kStir, kSurgT };
+
+constexpr std::array<NamedValue<Challenge>, 3> NamesOf(Challenge) {
+  return {{{"none", Challenge::kNone}, {"stir", Challenge::kStir}, {"surgt", Challenge::kSurgT}}};
+}
 
 // A path is empty if the file is not given.
 struct SlamSettings {
@@ -23,6 +32,8 @@ struct SlamSettings {
   std::string output;
   // A PLY file of points to follow, in the camera frame of the first frame, in metres.
   std::string track;
+  // The challenge whose points are followed, in the place of `track`, and whose files are written.
+  Challenge predict = Challenge::kNone;
   // Shared objects with more energies, separated by ";".
   std::string plugin;
   // A live cloud is written every `live_every` frames, and a checkpoint every `checkpoint_every`
