@@ -159,6 +159,12 @@ std::string EndPointText(const EndPointError& points) {
   return text;
 }
 
+std::string ScanText(const ScanAgreement& scan) {
+  if (!scan.distance) return Line("Scan of frame %d: no map point is seen\n", scan.frame);
+  return Line("Scan of frame %d: %d map points, mm to it: median", scan.frame, scan.seen) +
+         Millimetres(scan.distance->p50) + ", p95" + Millimetres(scan.distance->p95) + "\n";
+}
+
 std::string LogText(const FrameLog& log) {
   const LogSummary summary = SummarizeLog(log);
   std::string text = Line("Log of the run: %zu frames:", log.frames.size());
@@ -199,6 +205,7 @@ std::string SequenceTables(const SequenceFigures& figures) {
   if (!figures.depth.empty()) append(DepthTable(figures.depth));
   if (figures.tracks) append(TrackText(*figures.tracks));
   if (figures.end_points) append(EndPointText(*figures.end_points));
+  for (const ScanAgreement& scan : figures.scans) append(ScanText(scan));
   if (figures.log) append(LogText(*figures.log));
   return text;
 }

@@ -2,6 +2,7 @@
 #ifndef CERES_ED_EVALUATION_SEQUENCE_FIGURES_H_
 #define CERES_ED_EVALUATION_SEQUENCE_FIGURES_H_
 
+#include <ceres_ed/evaluation/scan_truth.h>
 #include <ceres_ed/evaluation/sequence_evaluation.h>
 #include <ceres_ed/evaluation/track_following.h>
 #include <ceres_ed/evaluation/trajectory_evaluation.h>
@@ -42,6 +43,7 @@ struct SequenceFigures {
   std::vector<DepthAgreement> depth;
   std::optional<TrackEvaluation> tracks;
   std::optional<EndPointError> end_points;
+  std::vector<ScanAgreement> scans;
   std::optional<FrameLog> log;
 };
 

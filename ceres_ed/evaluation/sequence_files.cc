@@ -111,6 +111,12 @@ StatusOr<SequenceFiles> OpenSequenceFiles(const std::string& folder) {
     if (!tracks.ok()) return tracks.status();
     files.tracks = *std::move(tracks);
   }
+  if (!files.index_of_frame.empty()) {
+    StatusOr<std::map<int, ScanPoints>> scans = ReadScans(
+        folder, files.index_of_frame.begin()->first, files.index_of_frame.rbegin()->first);
+    if (!scans.ok()) return scans.status();
+    files.scans = *std::move(scans);
+  }
   StatusOr<std::optional<StirPoints>> end_points = ReadStirPoints(folder);
   if (!end_points.ok()) return end_points.status();
   files.end_points = *std::move(end_points);

@@ -3,6 +3,7 @@
 #ifndef CERES_ED_EVALUATION_SEQUENCE_FILES_H_
 #define CERES_ED_EVALUATION_SEQUENCE_FILES_H_
 
+#include <ceres_ed/evaluation/scan_truth.h>
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/graph/deformation_state.h>
@@ -39,6 +40,8 @@ struct SequenceFiles {
   std::vector<TrackObservation> tracks;
   // The points of STIR at start and end.
   std::optional<StirPoints> end_points;
+  // The scans of D4D by frame.
+  std::map<int, ScanPoints> scans;
   // Sentences about truth that could not be read.
   std::vector<std::string> warnings;
 

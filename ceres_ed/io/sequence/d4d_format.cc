@@ -92,8 +92,14 @@ StatusOr<SequenceListing> ListD4d(const std::string& directory) {
     const std::string path =
         JoinPath(directory, std::string("curated_camera_pose_") + name + ".txt");
     if (!IsFile(path)) continue;
-    const StatusOr<CameraPose> pose = ReadPoseMatrix(path, 1.0);
+    StatusOr<CameraPose> pose = ReadPoseMatrix(path, 1.0);
     if (!pose.ok()) return pose.status();
+    constexpr double kFarthestMetres = 5.0;
+    constexpr double kMetresPerMillimetre = 1e-3;
+    if (pose->translation.norm() > kFarthestMetres) {
+      pose->translation *= kMetresPerMillimetre;
+      listing.warnings.push_back(path + ": the translation is taken as millimetres");
+    }
     entry->world_from_camera = *pose;
   }
   return listing;

@@ -57,6 +57,10 @@ StatusOr<SequenceFigures> Measure(const SequenceFiles& sequence,
     if (!depth.ok()) return depth.status();
     if (*depth) figures.depth.push_back(CompareWithDepth(camera, *snapshot, **depth, kOptions));
     if (tracks) tracks->Add(*snapshot);
+    const auto scan = sequence.scans.find(frame);
+    if (scan != sequence.scans.end()) {
+      figures.scans.push_back(CompareWithScan(camera, *snapshot, scan->second, kOptions));
+    }
     if (end_points) {
       end_points->Add(*snapshot);
       if (frame == sequence.index_of_frame.rbegin()->first) {

@@ -139,6 +139,11 @@ ordered_json SequenceReport(const SequenceFigures& figures) {
   }
   if (figures.tracks) report["tracks_2d"] = TracksReport(*figures.tracks);
   if (figures.end_points) report["end_points"] = EndPointsReport(*figures.end_points);
+  for (const ScanAgreement& scan : figures.scans) {
+    report["scans"].push_back({{"frame", scan.frame},
+                               {"seen", scan.seen},
+                               {"distance", StatisticsReport(scan.distance)}});
+  }
   if (figures.log) report["log"] = LogReport(*figures.log);
   return report;
 }
