@@ -66,6 +66,10 @@ if(pcl)
     "/usr/lib/${triplet}/cmake/ceres_ed/ceres_ed-pcl-targets.cmake"
     "/usr/include/ceres_ed-pcl-${version}/ceres_ed/pcl/pcl_conversions.h")
 endif()
+if(video)
+  check_package(ceres-ed-video "${library} \\(= ${version}\\).*libopencv-videoio"
+                "/usr/lib/${triplet}/libceres_ed_video.so.${soversion}")
+endif()
 
 # Nothing of the machine that built them, in binaries neither.
 execute_process(

@@ -39,6 +39,21 @@ Eigen::MatrixXd DistortionOf(const LensCamera& camera) {
   return Eigen::Map<const Eigen::Matrix<double, 1, 5>>(camera.distortion.data());
 }
 
+// Returns whether the depth jumps or ends near a point, where stereo cameras measure little.
+bool IsAtEdge(const DepthImage& depth, const MarkedPoint& point) {
+  constexpr int kReach = 12;
+  constexpr double kJump = 5e-3;
+  const int u = static_cast<int>(std::lround(point.pixel.x()));
+  const int v = static_cast<int>(std::lround(point.pixel.y()));
+  for (int dv = -kReach; dv <= kReach; dv += kReach) {
+    for (int du = -kReach; du <= kReach; du += kReach) {
+      if (!depth.Contains(u + du, v + dv)) return true;
+      if (std::abs(depth(u + du, v + dv) - point.depth) > kJump) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 LayoutWriter::LayoutWriter(std::string directory,
@@ -85,7 +100,7 @@ void LayoutWriter::AddMarks(const FrameToWrite& frame) {
       const bool is_alone = std::all_of(pixels.begin(), pixels.end(), [&](const auto& pixel) {
         return (pixel - mark.pixel).norm() > distance;
       });
-      if (!mark.visible || !is_alone) continue;
+      if (!mark.visible || !is_alone || IsAtEdge(*frame.depth, mark)) continue;
       marked_.push_back(i);
       pixels.push_back(mark.pixel);
     }
