@@ -25,7 +25,7 @@ class OpenCvDecoder : public VideoDecoder {
     info_.width = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_WIDTH));
     info_.height = static_cast<int>(capture_.get(cv::CAP_PROP_FRAME_HEIGHT));
     // Absurd numbers are what OpenCV answers where the file says nothing.
-    constexpr double kMostFrames = 1e8;
+    constexpr double kMostFrames = 5e6;
     const double count = capture_.get(cv::CAP_PROP_FRAME_COUNT);
     info_.num_frames = count > 0.0 && count < kMostFrames ? static_cast<int>(count) : 0;
     const double rate = capture_.get(cv::CAP_PROP_FPS);

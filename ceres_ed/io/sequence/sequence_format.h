@@ -19,8 +19,9 @@ struct SequenceFormatReader {
   // The files that the layout needs, for the message when no layout is recognised. Empty for a data
   // set, which is named only: nobody arranges files of his own like that.
   const char* needs = "";
-  // Returns whether a folder has this layout. It reads no picture, and must not take a folder of
-  // another layout for its own; the first layout in the table that recognises a folder is taken.
+  // Returns whether a folder has this layout. It looks at names and small files (and at one
+  // picture, if only that tells), and must not take a folder of another layout for its own; the
+  // first layout in the table that recognises a folder is taken.
   bool (*recognizes)(const std::string& directory) = nullptr;
   // Returns every frame of the folder, with ascending numbers and at least one, or an error.
   StatusOr<SequenceListing> (*list)(const std::string& directory) = nullptr;
