@@ -17,7 +17,7 @@ std::string Either(const json& file, const char* name, const char* other) {
 StatusOr<Eigen::MatrixXd> ReadCamera(const std::string& path, PinholeCamera* camera) {
   const StatusOr<json> file = ReadYamlFile(path);
   if (!file.ok()) return file.status();
-  const StatusOr<Eigen::MatrixXd> projection =
+  StatusOr<Eigen::MatrixXd> projection =
       ReadMatrix(path, *file, Either(*file, "P", "projection_matrix"), 3, 4);
   if (!projection.ok()) return projection.status();
   SetIntrinsics(*projection, camera);

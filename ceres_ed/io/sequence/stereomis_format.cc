@@ -54,8 +54,10 @@ Status RectifyAsUnpacked(const std::string& path,
   }
   Status status = FitCalibration(path, width, scaled_height, calibration);
   if (!status.ok()) return status;
+  // The program cuts whole rows.
+  const int rows_above = (scaled_height - height) / 2;
   for (PinholeCamera* camera : {&calibration->rig.left.pinhole, &calibration->rig.right.pinhole}) {
-    camera->cy -= (scaled_height - height) / 2;
+    camera->cy -= rows_above;
     camera->height = height;
   }
   calibration->rig = RectifyRig(calibration->rig);
