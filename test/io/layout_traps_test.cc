@@ -105,6 +105,7 @@ TEST(TimesInNames, UnitIsFoundByTheNumberOfDigits) {
   EXPECT_NEAR(*TimeInName("1551915398675700000"), 1551915398.6757, 1e-6);
   EXPECT_EQ(*TimeInName("12.5"), 12.5);
   EXPECT_FALSE(TimeInName("000123").has_value());
+  EXPECT_FALSE(TimeInName("000000000123").has_value());
   EXPECT_FALSE(TimeInName("frame-1").has_value());
   EXPECT_FALSE(TimeInName("1.2.3").has_value());
 }

@@ -169,9 +169,12 @@ std::optional<double> TimeInName(const std::string& stem) {
   const bool is_number = !stem.empty() &&
                          stem.find_first_not_of("0123456789.") == std::string::npos && dot != 0 &&
                          dot + 1 != stem.size() && stem.find('.', dot + 1) == std::string::npos;
-  if (!is_number || (dot == std::string::npos && stem.size() < kFewestDigits)) return std::nullopt;
+  if (!is_number) return std::nullopt;
+  // Digits that begin with 0 are a padded number.
+  const bool is_whole = dot == std::string::npos;
+  if (is_whole && (stem.size() < kFewestDigits || stem[0] == '0')) return std::nullopt;
   const std::optional<double> number = ParseDouble(stem);
-  if (!number.has_value() || dot != std::string::npos) return number;
+  if (!number.has_value() || !is_whole) return number;
   // Times of this century have 10 digits of seconds.
   double unit = 1e-3;
   for (std::size_t digits = 15; digits < stem.size(); digits += 3) unit *= 1e-3;

@@ -36,7 +36,8 @@ std::string ShortDepthWarning(const std::string& path, double units_per_metre);
 Status SetSizeFromPictures(const std::vector<SequenceEntry>& entries, PinholeCamera* camera);
 
 // Returns the time in seconds if a name without ending is one: seconds with a fraction
-// (1551915398.6757), or milli-, micro- or nanoseconds as a whole number of at least 11 digits.
+// (1551915398.6757), or milli-, micro- or nanoseconds as a whole number of at least 11 digits that
+// does not begin with 0.
 std::optional<double> TimeInName(const std::string& stem);
 
 // Returns the pictures of a folder (PNG, and JPEG unless `lossless_only`) by the number in the
