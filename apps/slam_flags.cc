@@ -31,8 +31,7 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           "track",
           "PLY to read: points to follow, in metres in the first frame's camera; see tracks.csv.")
           .File(),
-      Row(&S::predict, "predict", "Follow the points that a challenge gives, and write its files.")
-          .File(),
+      Row(&S::predict, "predict", "Follow the points that a challenge gives, and write its files."),
       Row(&S::plugin, "plugin", "Shared object with more energies, or several, separated by ';'.")
           .File(),
       Row(&S::live_every, "live_every", "Write a live cloud every n frames.")

@@ -201,7 +201,7 @@ std::string Describe(const SequenceFormatReader& reader,
 const OptionTable<SequenceOptions>& SequenceOptions::Rows() {
   using O = SequenceOptions;
   static const OptionTable<O> rows({
-      Row(&O::format, "format", "The layout of the sequence.").Main(),
+      Row(&O::format, "format", "The layout of files.").Main(),
       Row(&O::first, "first", "The number of the first frame.").In(AtLeast(0)).Main(),
       Row(&O::last, "last", "The number of the last frame.")
           .In(AtLeast(-1))
