@@ -45,7 +45,7 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           .File(),
       Row(&S::checkpoint_every,
           "checkpoint_every",
-          "Save the state, the map and the report every n frames.")
+          "Save state, map and report every n frames.")
           .In(AtLeast(0))
           .Special(0, "none")
           .OnResume(ResumeRule::kFree)

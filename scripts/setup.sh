@@ -2,7 +2,7 @@
 # Installs Debian 12 packages that ceres_ed is built from, only those that are missing:
 #   setup.sh [LIST ...]   (demo)
 #   fit       the library, ed_fit, ed_apply, ed_eval
-#   tracking  fit, and what reads pictures: ed_slam, ed_simulate
+#   tracking  fit, and what reads pictures: ed_slam, ed_depth, ed_simulate
 #   demo      what scripts/demo.sh needs: tracking
 #   python    the Python package
 #   pcl       the module for PCL and .pcd files

@@ -220,7 +220,7 @@ std::string SpecialsText(const Option& option) {
 // Returns the first of a list of names if the list is long, and "...".
 std::string FirstNames(const std::string& names) {
   constexpr int kMost = 5;
-  constexpr int kShown = 4;
+  constexpr int kShown = 3;
   if (std::count(names.begin(), names.end(), ',') < kMost) return names;
   std::size_t end = 0;
   for (int i = 0; i < kShown; ++i) end = names.find(',', end) + 1;

@@ -28,6 +28,8 @@ inline std::vector<std::map<std::string, std::string>> ReadCsv(const std::string
     std::vector<std::string> fields;
     std::istringstream stream(line);
     for (std::string field; std::getline(stream, field, ',');) fields.push_back(field);
+    // The last field of a row may be empty.
+    if (!line.empty() && line.back() == ',') fields.emplace_back();
     return fields;
   };
   for (std::size_t i = 1; i < lines.size(); ++i) {
