@@ -2,7 +2,7 @@
 
 #include <ceres_ed/io/calibration/rectify_rig.h>
 #include <ceres_ed/io/npy_file.h>
-#include <ceres_ed/io/sequence/surgt_truth.h>
+#include <ceres_ed/io/sequence/layouts/surgt_truth.h>
 
 #include <algorithm>
 #include <cmath>

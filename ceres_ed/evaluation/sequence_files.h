@@ -10,7 +10,7 @@
 #include <ceres_ed/io/results/frames_csv.h>
 #include <ceres_ed/io/sequence/picture_tracks.h>
 #include <ceres_ed/io/sequence/scene_truth.h>
-#include <ceres_ed/io/sequence/stir_truth.h>
+#include <ceres_ed/io/sequence/layouts/stir_truth.h>
 #include <ceres_ed/stereo/depth_source.h>
 #include <ceres_ed/util/status.h>
 

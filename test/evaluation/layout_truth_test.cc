@@ -6,8 +6,8 @@
 #include "ceres_ed/evaluation/sequence_files.h"
 
 #include <ceres_ed/io/npy_file.h>
-#include <ceres_ed/io/sequence/stir_truth.h>
-#include <ceres_ed/io/sequence/surgt_truth.h>
+#include <ceres_ed/io/sequence/layouts/stir_truth.h>
+#include <ceres_ed/io/sequence/layouts/surgt_truth.h>
 
 #include <cmath>
 #include <string>

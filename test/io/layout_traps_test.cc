@@ -1,5 +1,5 @@
 // What goes wrong with recordings of others: each is named in a sentence, or put right.
-#include "ceres_ed/io/sequence/layout_files.h"
+#include "ceres_ed/io/sequence/layouts/layout_files.h"
 #include "ceres_ed/io/sequence/picture_files.h"
 #include "sequence_test_util.h"
 

@@ -2,8 +2,8 @@
 #include "../io/io_test_util.h"
 
 #include <ceres_ed/io/sequence/depth_sequence.h>
-#include <ceres_ed/io/sequence/stir_truth.h>
-#include <ceres_ed/io/sequence/surgt_truth.h>
+#include <ceres_ed/io/sequence/layouts/stir_truth.h>
+#include <ceres_ed/io/sequence/layouts/surgt_truth.h>
 #include <ceres_ed/pipeline/evaluate/evaluate_run.h>
 #include <ceres_ed/pipeline/simulate/simulate_run.h>
 #include <ceres_ed/pipeline/slam/slam_run.h>

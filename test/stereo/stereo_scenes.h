@@ -4,7 +4,7 @@
 
 #include <ceres_ed/geometry/images.h>
 #include <ceres_ed/geometry/stereo_rig.h>
-#include <ceres_ed/io/sequence/stereo_file.h>
+#include <ceres_ed/io/sequence/layouts/stereo_file.h>
 #include <ceres_ed/simulation/texture.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 #include "ceres_ed/io/sequence/native_writer.h"
 
 #include <ceres_ed/io/image_io.h>
-#include <ceres_ed/io/sequence/stereo_file.h>
+#include <ceres_ed/io/sequence/layouts/stereo_file.h>
 
 #include <algorithm>
 #include <cstdio>

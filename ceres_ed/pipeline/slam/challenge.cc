@@ -2,7 +2,7 @@
 
 #include <ceres_ed/evaluation/layout_truth.h>
 #include <ceres_ed/io/atomic_file.h>
-#include <ceres_ed/io/sequence/stir_truth.h>
+#include <ceres_ed/io/sequence/layouts/stir_truth.h>
 #include <ceres_ed/io/text_rows.h>
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #ifndef CERES_ED_PIPELINE_SLAM_CHALLENGE_H_
 #define CERES_ED_PIPELINE_SLAM_CHALLENGE_H_
 
-#include <ceres_ed/io/sequence/surgt_truth.h>
+#include <ceres_ed/io/sequence/layouts/surgt_truth.h>
 #include <ceres_ed/pipeline/slam/slam_settings.h>
 #include <ceres_ed/pipeline/slam/warning_log.h>
 #include <ceres_ed/slam/tracked_points.h>
