@@ -405,6 +405,7 @@ class TrackerOptions:
     marginal_reach: int
     w_rot: float
     w_reg: float
+    yield_strain: float
     w_node_prior: float
     w_data: float
     w_feature: float
@@ -443,27 +444,29 @@ class TrackerOptions:
     growth_max_view_angle_deg: float
     surface_cell: int
     surface_radius: int
+    surface_max_slope_noise: float
     surface_max_slope_deg: float
     def __init__(
             self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
             linear_solver: LinearSolver = ..., relinearize_above: float = ...,
             marginal_reach: int = ..., w_rot: float = ..., w_reg: float = ...,
-            w_node_prior: float = ..., w_data: float = ..., w_feature: float = ...,
-            prior_rotation_deg: float = ..., prior_translation: float = ..., level2: LevelTwo = ...,
-            lazy_tolerance: float = ..., lazy_reach: int = ..., lazy_waves_per_frame: int = ...,
-            lazy_max_seeds: int = ..., camera: CameraMode = ..., rigid: bool = ...,
-            node_spacing: float = ..., nodes_in_view: int = ..., neighbors: int = ...,
-            features: bool = ..., rounds: int = ..., max_observations: int = ...,
-            max_point_weight: float = ..., memory_max_moments: int = ...,
-            memory_likeness: float = ..., memory_min_common: int = ..., verify_every: int = ...,
-            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
+            yield_strain: float = ..., w_node_prior: float = ..., w_data: float = ...,
+            w_feature: float = ..., prior_rotation_deg: float = ..., prior_translation: float = ...,
+            level2: LevelTwo = ..., lazy_tolerance: float = ..., lazy_reach: int = ...,
+            lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ..., camera: CameraMode = ...,
+            rigid: bool = ..., node_spacing: float = ..., nodes_in_view: int = ...,
+            neighbors: int = ..., features: bool = ..., rounds: int = ...,
+            max_observations: int = ..., max_point_weight: float = ...,
+            memory_max_moments: int = ..., memory_likeness: float = ...,
+            memory_min_common: int = ..., verify_every: int = ..., threads: int = ...,
+            feature_count: int = ..., feature_max_deviations: float = ...,
             feature_window: int = ..., feature_pyramid_levels: int = ...,
             feature_light_radius: float = ..., feature_max_round_trip: float = ...,
             feature_min_distance: float = ..., feature_quality: float = ...,
             growth_point_spacing: float = ..., growth_node_coverage: float = ...,
             growth_edges_per_node: int = ..., growth_max_view_angle_deg: float = ...,
             surface_cell: int = ..., surface_radius: int = ...,
-            surface_max_slope_deg: float = ...) -> None: ...
+            surface_max_slope_noise: float = ..., surface_max_slope_deg: float = ...) -> None: ...
     def __copy__(self) -> TrackerOptions: ...
     def copy(self) -> TrackerOptions: ...
 
@@ -550,12 +553,12 @@ class Tracker:
             energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
             rings: int = ..., boundary: Boundary = ..., linear_solver: LinearSolver = ...,
             relinearize_above: float = ..., marginal_reach: int = ..., w_rot: float = ...,
-            w_reg: float = ..., w_node_prior: float = ..., w_data: float = ...,
-            w_feature: float = ..., prior_rotation_deg: float = ..., prior_translation: float = ...,
-            level2: LevelTwo = ..., lazy_tolerance: float = ..., lazy_reach: int = ...,
-            lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ..., camera: CameraMode = ...,
-            rigid: bool = ..., node_spacing: float = ..., nodes_in_view: int = ...,
-            neighbors: int = ..., features: bool = ..., rounds: int = ...,
+            w_reg: float = ..., yield_strain: float = ..., w_node_prior: float = ...,
+            w_data: float = ..., w_feature: float = ..., prior_rotation_deg: float = ...,
+            prior_translation: float = ..., level2: LevelTwo = ..., lazy_tolerance: float = ...,
+            lazy_reach: int = ..., lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ...,
+            camera: CameraMode = ..., rigid: bool = ..., node_spacing: float = ...,
+            nodes_in_view: int = ..., neighbors: int = ..., features: bool = ..., rounds: int = ...,
             max_observations: int = ..., max_point_weight: float = ...,
             memory_max_moments: int = ..., memory_likeness: float = ...,
             memory_min_common: int = ..., verify_every: int = ..., threads: int = ...,
@@ -566,7 +569,7 @@ class Tracker:
             growth_point_spacing: float = ..., growth_node_coverage: float = ...,
             growth_edges_per_node: int = ..., growth_max_view_angle_deg: float = ...,
             surface_cell: int = ..., surface_radius: int = ...,
-            surface_max_slope_deg: float = ...) -> None: ...
+            surface_max_slope_noise: float = ..., surface_max_slope_deg: float = ...) -> None: ...
     def track(
             self, depth: ArrayLike, color: Optional[ArrayLike] = None,
             pose: Optional[ArrayLike] = None, *, units_per_metre: Optional[float] = None,
