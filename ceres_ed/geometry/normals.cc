@@ -74,18 +74,37 @@ Eigen::Vector3d PlaneNormal(const std::vector<Eigen::Vector3d>& points,
   return eigen.eigenvectors().col(0);
 }
 
+// The nearest points of every point, itself included.
+struct Neighborhoods {
+  Neighborhoods(const std::vector<Eigen::Vector3d>& points, int size, int num_threads)
+      : size(size), nearest(points.size() * size), counts(points.size(), 0) {
+    const KdTree tree(points);
+    ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
+      for (int p = begin; p < end; ++p) {
+        counts[p] =
+            tree.KNearest(points[p], size, &nearest[static_cast<std::size_t>(p) * this->size]);
+      }
+    });
+  }
+
+  const Neighbor* Of(int point) const { return &nearest[static_cast<std::size_t>(point) * size]; }
+
+  int size;
+  // `size` entries for each point, of which the first counts[point] are filled in.
+  std::vector<Neighbor> nearest;
+  std::vector<int> counts;
+};
+
 // Returns the minimum spanning forest of the neighbour graph: for each point, the points to which
 // it is linked.
 std::vector<std::vector<int>> SpanningForest(const std::vector<Eigen::Vector3d>& normals,
-                                             const std::vector<Neighbor>& neighbors,
-                                             const std::vector<int>& counts,
-                                             int k) {
+                                             const Neighborhoods& around) {
   const int num_points = static_cast<int>(normals.size());
   std::vector<NeighborEdge> edges;
-  edges.reserve(neighbors.size());
+  edges.reserve(around.nearest.size());
   for (int a = 0; a < num_points; ++a) {
-    for (int i = 0; i < counts[a]; ++i) {
-      const int b = neighbors[static_cast<std::size_t>(a) * k + i].index;
+    for (int i = 0; i < around.counts[a]; ++i) {
+      const int b = around.Of(a)[i].index;
       if (a == b) continue;
       edges.push_back({1.0 - std::abs(normals[a].dot(normals[b])), std::min(a, b), std::max(a, b)});
     }
@@ -165,20 +184,24 @@ std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>&
                                              int num_threads) {
   CHECK_GE(neighbors, 3);
   // Fit a plane to the neighbours of each point.
-  const KdTree tree(points);
-  std::vector<Neighbor> nearest(points.size() * neighbors);
-  std::vector<int> counts(points.size(), 0);
+  const Neighborhoods around(points, neighbors, num_threads);
   std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
   ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
     for (int p = begin; p < end; ++p) {
-      Neighbor* row = &nearest[static_cast<std::size_t>(p) * neighbors];
-      counts[p] = tree.KNearest(points[p], neighbors, row);
-      normals[p] = PlaneNormal(points, row, counts[p]);
+      normals[p] = PlaneNormal(points, around.Of(p), around.counts[p]);
     }
   });
-  // Choose the signs.
-  OrientNormals(points, SpanningForest(normals, nearest, counts, neighbors), &normals);
+  OrientNormals(points, SpanningForest(normals, around), &normals);
   return normals;
+}
+
+void ChooseNormalSigns(const std::vector<Eigen::Vector3d>& points,
+                       std::vector<Eigen::Vector3d>* normals,
+                       int neighbors,
+                       int num_threads) {
+  CHECK_EQ(points.size(), normals->size());
+  const Neighborhoods around(points, neighbors, num_threads);
+  OrientNormals(points, SpanningForest(*normals, around), normals);
 }
 
 void EnsureNormals(PointCloud* cloud, int num_threads) {

@@ -29,6 +29,13 @@ std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>&
                                              int neighbors = kNormalNeighbors,
                                              int num_threads = 1);
 
+// Chooses the signs of `normals`, one unit normal for each point, as EstimateNormals() does. Their
+// directions are kept.
+void ChooseNormalSigns(const std::vector<Eigen::Vector3d>& points,
+                       std::vector<Eigen::Vector3d>* normals,
+                       int neighbors = kNormalNeighbors,
+                       int num_threads = 1);
+
 // Computes `cloud->normals` unless each point has a normal already. With triangles they come from
 // ComputeVertexNormals() (normals_oriented = true). Otherwise they come from EstimateNormals()
 // (normals_oriented = false: compare them up to sign).

@@ -9,7 +9,8 @@
 #include <ceres_ed/registration/finish/unfold.h>
 #include <ceres_ed/registration/finish/vertex_finish.h>
 #include <ceres_ed/registration/fit_validation.h>
-#include <ceres_ed/registration/rigid/rigid_registration.h>
+#include <ceres_ed/registration/placement.h>
+#include <ceres_ed/registration/prepared_surface.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -21,18 +22,6 @@
 
 namespace ceres_ed {
 namespace {
-
-// Returns the pose that the landmarks determine, or the identity if they do not determine one.
-Similarity PoseFromLandmarks(const FitInput& input, bool with_scale) {
-  std::vector<Eigen::Vector3d> from;
-  std::vector<Eigen::Vector3d> to;
-  for (const Landmark& landmark : input.landmarks) {
-    from.push_back(input.source.points[landmark.point]);
-    to.push_back(landmark.position);
-  }
-  const StatusOr<Similarity> pose = Similarity::FitPoints(from, to, with_scale);
-  return pose.ok() ? *pose : Similarity();
-}
 
 PointCloud Transformed(const Similarity& pose, const PointCloud& cloud) {
   PointCloud moved = cloud;
@@ -90,17 +79,24 @@ std::vector<Correspondence> InUnitFrame(const std::vector<Landmark>& constraints
 // One fit: the steps of Fit() and the data that they share.
 class Fitter {
  public:
-  // `surface` is the surface of the given source; if it is null, it is built when it is needed.
+  // `prepared` is the surface of the given source; if it is null, it is made when it is needed.
   Fitter(const FitInput& input,
          const FitOptions& options,
          const EnergyRegistry& registry,
-         const Surface* surface)
-      : input_(input), options_(options), registry_(registry), source_surface_(surface) {}
+         const PreparedSurface* prepared)
+      : input_(input), options_(options), registry_(registry), prepared_source_(prepared) {}
 
   StatusOr<FitResult> Run();
 
  private:
-  void PlaceRigidly();
+  // Places the source, and stores both surfaces in the unit frame.
+  void Place();
+  // Stores the surfaces in the unit frame, with a denoised target.
+  void TakeToUnitFrame(const PointCloud& source, const PointCloud* target);
+  bool MustStop() const {
+    return (options_.should_stop && options_.should_stop()) ||
+           clock_.Seconds() >= options_.time_limit_s;
+  }
   FitOptions UnitOptions(const Surface& source, const Surface* target) const;
   void Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state);
   // Moves every vertex of `fitted` (the source as warped by the nodes) onto the target, and stores
@@ -116,31 +112,56 @@ class Fitter {
   const FitInput& input_;
   const FitOptions& options_;
   const EnergyRegistry& registry_;
-  const Surface* source_surface_;
+  const PreparedSurface* prepared_source_;
   const Timer clock_;
   Similarity unit_from_target_;
+  // The surfaces in the unit frame, and the noise of the target there. The target may be null.
+  std::unique_ptr<const Surface> source_;
+  std::unique_ptr<const Surface> target_;
+  double noise_ = 0.0;
   FitResult result_;
 };
 
-void Fitter::PlaceRigidly() {
+void Fitter::Place() {
   const Timer timer;
-  if (!options_.rigid_first || !input_.fixed_points.empty()) return;
-  if (options_.on_progress) options_.on_progress({"rigid", 0.0, 0, 0.0, 0.0});
-  result_.rigid = PoseFromLandmarks(input_, options_.rigid.with_scale);
-  if (!input_.target.empty()) {
-    RigidOptions rigid = options_.rigid;
-    rigid.num_threads = options_.num_threads;
-    rigid.should_stop = [this] {
-      return (options_.should_stop && options_.should_stop()) ||
-             clock_.Seconds() >= options_.time_limit_s;
-    };
-    std::optional<Surface> made;
-    if (source_surface_ == nullptr) made.emplace(input_.source, options_.num_threads);
-    const Surface& source = source_surface_ != nullptr ? *source_surface_ : *made;
-    const Surface target(input_.target, options_.num_threads);
-    result_.rigid = AlignRigid(source, target, result_.rigid, rigid).target_from_source;
+  const bool is_placed = options_.rigid_first && input_.fixed_points.empty();
+  if (is_placed && options_.on_progress) options_.on_progress({"rigid", 0.0, 0, 0.0, 0.0});
+  PreparedSurface made;
+  if (prepared_source_ == nullptr) {
+    made = PrepareSurface(input_.source, "the source", options_.num_threads);
+  }
+  const PreparedSurface& source = prepared_source_ != nullptr ? *prepared_source_ : made;
+  const Placement placement =
+      PlaceSurfaces(input_, *source.surface, options_, [this] { return MustStop(); });
+  result_.rigid = placement.target_from_source;
+  for (const auto* notes : {&source.notes, &placement.notes}) {
+    result_.warnings.insert(result_.warnings.end(), notes->begin(), notes->end());
   }
   result_.times.rigid = timer.Seconds();
+  TakeToUnitFrame(source.surface->cloud(),
+                  placement.target != nullptr ? &placement.target->cloud() : nullptr);
+}
+
+void Fitter::TakeToUnitFrame(const PointCloud& source, const PointCloud* target) {
+  const Timer timer;
+  PointCloud placed = Transformed(result_.rigid, source);
+  unit_from_target_ = UnitFrame(placed);
+  source_ = std::make_unique<Surface>(Transformed(unit_from_target_, placed), options_.num_threads);
+  if (target != nullptr) {
+    target_ =
+        std::make_unique<Surface>(Transformed(unit_from_target_, *target), options_.num_threads);
+    noise_ = FinishNoise(*source_, *target_);
+    result_.noise = noise_ / unit_from_target_.scale;
+    Denoised denoised;
+    if (options_.denoise) {
+      denoised = Denoise(*target_, noise_);
+      noise_ = denoised.noise;
+    }
+    if (denoised.length > 0.0) {
+      target_ = std::make_unique<Surface>(std::move(denoised.cloud), options_.num_threads);
+    }
+  }
+  result_.times.prepare = timer.Seconds();
 }
 
 FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) const {
@@ -282,47 +303,23 @@ void Fitter::WarnAboutReflections(const DeformationState& state) {
 
 StatusOr<FitResult> Fitter::Run() {
   if (Status status = ValidateFit(input_, options_); !status.ok()) return status;
-  // 1. The rigid placement target_from_source.
-  PlaceRigidly();
-
-  Timer timer;
-  // 2. Both surfaces in the unit frame; the target is denoised.
-  PointCloud placed = Transformed(result_.rigid, input_.source);
-  unit_from_target_ = UnitFrame(placed);
-  const Surface source(Transformed(unit_from_target_, placed), options_.num_threads);
-  std::unique_ptr<Surface> target;
-  double noise = 0.0;
-  if (!input_.target.empty()) {
-    target = std::make_unique<Surface>(Transformed(unit_from_target_, input_.target),
-                                       options_.num_threads);
-    noise = FinishNoise(source, *target);
-    result_.noise = noise / unit_from_target_.scale;
-    Denoised denoised;
-    if (options_.denoise) {
-      denoised = Denoise(*target, noise);
-      noise = denoised.noise;
-    }
-    if (denoised.length > 0.0) {
-      target = std::make_unique<Surface>(std::move(denoised.cloud), options_.num_threads);
-    }
-  }
-  result_.times.prepare = timer.Seconds();
-
+  // 1. The rigid placement target_from_source, and both surfaces in the unit frame.
+  Place();
   std::vector<Landmark> fixed;
   for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
-  const FitOptions unit_options = UnitOptions(source, target.get());
-  // 3. The deformation by the nodes, from coarse to fine graphs.
-  const UnitFit fit = {&source,
-                       target.get(),
+  const FitOptions unit_options = UnitOptions(*source_, target_.get());
+  // 2. The deformation by the nodes, from coarse to fine graphs.
+  const UnitFit fit = {source_.get(),
+                       target_.get(),
                        &unit_options,
                        &registry_,
                        InUnitFrame(input_.landmarks, unit_from_target_),
                        InUnitFrame(fixed, unit_from_target_),
-                       noise,
+                       noise_,
                        &clock_};
   CoarseToFine coarse_to_fine(fit);
   if (Status status = coarse_to_fine.Run(&result_); !status.ok()) return status;
-  // 4. The warp in the source frame, and the finish of every vertex.
+  // 3. The warp in the source frame, and the finish of every vertex.
   Finish(fit, coarse_to_fine.graph(), coarse_to_fine.state());
   return std::move(result_);
 }
@@ -332,7 +329,7 @@ StatusOr<FitResult> Fitter::Run() {
 StatusOr<FitResult> Fit(const FitInput& input,
                         const FitOptions& options,
                         const EnergyRegistry& registry) {
-  return Fitter(input, options, registry, /*surface=*/nullptr).Run();
+  return Fitter(input, options, registry, /*prepared=*/nullptr).Run();
 }
 
 StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target) {
@@ -348,7 +345,8 @@ SurfaceFitter::SurfaceFitter(PointCloud source,
     : source_(std::move(source)),
       options_(options),
       registry_(registry),
-      surface_(std::make_unique<const Surface>(source_, options.num_threads)) {}
+      prepared_(std::make_unique<const PreparedSurface>(
+          PrepareSurface(source_, "the source", options.num_threads))) {}
 
 SurfaceFitter::~SurfaceFitter() = default;
 
@@ -365,7 +363,7 @@ StatusOr<FitResult> SurfaceFitter::Fit(const PointCloud& target,
                                        const std::vector<Landmark>& landmarks,
                                        const std::vector<int>& fixed_points) const {
   const FitInput input = {source_, target, landmarks, fixed_points};
-  return Fitter(input, options_, registry_, surface_.get()).Run();
+  return Fitter(input, options_, registry_, prepared_.get()).Run();
 }
 
 }  // namespace ceres_ed

@@ -11,7 +11,7 @@
 namespace ceres_ed {
 
 class EnergyRegistry;
-class Surface;
+struct PreparedSurface;
 
 // Fits `input` and returns the result. It is an error if the input cannot be used, an energy is
 // unknown or an option is invalid; the message says what was expected. A solve that fails is not an
@@ -55,7 +55,7 @@ class SurfaceFitter {
   PointCloud source_;
   FitOptions options_;
   const EnergyRegistry& registry_;
-  std::unique_ptr<const Surface> surface_;
+  std::unique_ptr<const PreparedSurface> prepared_;
 };
 
 }  // namespace ceres_ed

@@ -61,6 +61,8 @@ struct RigidOptions {
   // pose misses, because inputs of the same sensor are usually near their place; (0, 1], default
   // 0.85.
   double preference = 0.85;
+  // Whether the target may be wound inside out; default true.
+  bool both_sides = true;
   // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
   // Called between starts; if it returns true, the search ends with the best pose so far.

@@ -96,7 +96,8 @@ std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose,
   nearest->resize(pairs.size(), -1);
   const auto agreement = [&](const Eigen::Vector3d& source_normal, const Eigen::Vector3d& n) {
     const double cosine = (pose.rotation * source_normal).dot(n);
-    return options_.oriented ? cosine : std::abs(cosine);
+    if (!options_.oriented) return std::abs(cosine);
+    return options_.reversed ? -cosine : cosine;
   };
   const auto match = [&](int i) {
     PlanePair& pair = pairs[i];

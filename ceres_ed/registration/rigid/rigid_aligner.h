@@ -34,6 +34,8 @@ struct RigidAlignerOptions {
   bool with_scale = false;
   // Whether the sign of the normals of both surfaces is known; default true.
   bool oriented = true;
+  // Whether the normals of the target are taken the other way round; default false.
+  bool reversed = false;
   // The largest angle between the normals of a pair, in (0, 180] degrees; default 60.
   double max_angle_deg = 60.0;
   // The distance at which a point counts half as unmatched, in the unit of the target, > 0.

@@ -33,10 +33,17 @@ constexpr double kMaxNoiseFactor = 2.0;
 constexpr double kLeastSpacing = 0.012;
 // The number of smoothing passes, which is multiplied by the square of the noise factor.
 constexpr double kSmoothing = 3.0;
+// The side of the target is known if, at the given pose, one side misses less than the first of
+// these times what the other one misses, and the best pose misses less than the second.
+constexpr double kToldApart = 0.7;
+constexpr double kToldBelow = 0.5;
 
 struct ScoredPose {
   Similarity pose;
   RigidScore score;
+  bool reversed = false;
+
+  bool IsGood(const RigidOptions& options) const { return score.Better() <= options.good_score; }
 };
 
 // How the surfaces are thinned out; the spacing is in the unit of the target.
@@ -61,8 +68,10 @@ Coarseness ChooseCoarseness(const Surface& source, const Surface& target, double
 
 RigidAlignerOptions AlignerOptions(const Surface& source,
                                    const Surface& target,
-                                   const RigidOptions& options) {
+                                   const RigidOptions& options,
+                                   bool reversed = false) {
   RigidAlignerOptions aligner;
+  aligner.reversed = reversed;
   aligner.with_scale = options.with_scale;
   aligner.oriented = source.cloud().normals_oriented && target.cloud().normals_oriented;
   aligner.max_angle_deg = options.max_angle_deg;
@@ -90,14 +99,21 @@ class StartFinder {
     aligner_options_.slack = coarseness_.spacing;
   }
 
-  RigidAligner Aligner(int samples) const {
-    return {MakeRigidSide(source_, samples), MakeRigidSide(target_, samples), aligner_options_};
+  // `reversed` takes the target inside out, here and below.
+  RigidAligner Aligner(int samples, bool reversed) const {
+    RigidAlignerOptions aligner = aligner_options_;
+    aligner.reversed = reversed;
+    return {MakeRigidSide(source_, samples), MakeRigidSide(target_, samples), aligner};
   }
 
-  // Returns the best pose of a global search, and counts the starts.
-  ScoredPose Search(const RigidAligner& coarse, int* starts_tried) const;
+  // Returns the given pose, or one that is clearly better, and counts the starts.
+  ScoredPose Find(int* starts_tried) const;
 
  private:
+  // Returns the best pose of a global search, and counts the starts.
+  ScoredPose Search(bool reversed, int* starts_tried) const;
+  // Returns whether the sides of the two surfaces can be told apart and the target may be reversed.
+  bool HasTwoSides() const { return options_.both_sides && aligner_options_.oriented; }
   bool Stopped() const { return options_.should_stop && options_.should_stop(); }
 
   const Surface& source_surface_;
@@ -115,8 +131,9 @@ ScoredPose Refined(const RigidAligner& aligner, const Similarity& start, int ite
   return {pose, aligner.Score(pose)};
 }
 
-ScoredPose StartFinder::Search(const RigidAligner& coarse, int* starts_tried) const {
+ScoredPose StartFinder::Search(bool reversed, int* starts_tried) const {
   RigidSearchOptions search;
+  search.reversed = reversed;
   search.scale = initial_.scale;
   search.oriented = aligner_options_.oriented;
   search.max_count = kSearchedStarts;
@@ -126,7 +143,8 @@ ScoredPose StartFinder::Search(const RigidAligner& coarse, int* starts_tried) co
   const std::vector<Similarity> found = SearchRigidly(source_, target_, search);
   starts.insert(starts.end(), found.begin(), found.end());
   // All starts are refined roughly.
-  const RigidAligner rough = Aligner(kSiftSamples);
+  const RigidAligner rough = Aligner(kSiftSamples, reversed);
+  const RigidAligner coarse = Aligner(kCoarseSamples, reversed);
   std::vector<ScoredPose> sifted;
   for (const Similarity& start : starts) {
     if (Stopped()) break;
@@ -138,11 +156,40 @@ ScoredPose StartFinder::Search(const RigidAligner& coarse, int* starts_tried) co
   });
   // The best of them are refined better.
   if (sifted.size() > kSiftKept) sifted.resize(kSiftKept);
-  ScoredPose best{initial_, RigidScore()};
+  ScoredPose best{initial_, RigidScore(), reversed};
   for (const ScoredPose& start : sifted) {
     if (Stopped()) break;
-    const ScoredPose candidate = Refined(coarse, start.pose, kCoarseIterations);
+    ScoredPose candidate = Refined(coarse, start.pose, kCoarseIterations);
+    candidate.reversed = reversed;
     if (candidate.score.Total() < best.score.Total()) best = candidate;
+  }
+  return best;
+}
+
+ScoredPose StartFinder::Find(int* starts_tried) const {
+  // The given pose is refined on the coarse surfaces.
+  ScoredPose best = Refined(Aligner(kCoarseSamples, false), initial_, kCoarseIterations);
+  *starts_tried = 1;
+  if (best.IsGood(options_) || Stopped()) return best;
+  // Another pose, or the other side of the target, must be clearly better.
+  const auto keep_better = [&](const ScoredPose& other) {
+    if (other.score.Total() < options_.preference * best.score.Total()) best = other;
+  };
+  double ratio = 0.0;
+  if (HasTwoSides()) {
+    const double given = best.score.Total();
+    ScoredPose reversed = Refined(Aligner(kCoarseSamples, true), initial_, kCoarseIterations);
+    reversed.reversed = true;
+    ++*starts_tried;
+    keep_better(reversed);
+    if (best.IsGood(options_)) return best;
+    ratio = best.score.Total() / std::max(given, reversed.score.Total());
+  }
+  const bool side = best.reversed;
+  keep_better(Search(side, starts_tried));
+  const bool is_side_known = ratio < kToldApart && best.score.Better() < kToldBelow;
+  if (HasTwoSides() && !is_side_known && !best.IsGood(options_) && !Stopped()) {
+    keep_better(Search(!side, starts_tried));
   }
   return best;
 }
@@ -153,25 +200,31 @@ RigidResult AlignRigid(const Surface& source,
                        const Surface& target,
                        const Similarity& initial,
                        const RigidOptions& options) {
+  const StartFinder finder(source, target, initial, options);
+  RigidResult result;
+  const ScoredPose best = finder.Find(&result.starts_tried);
+  // Finally the best pose is refined on the points themselves.
   const RigidAligner fine(MakeRigidSide(source, kFineSamples),
                           MakeRigidSide(target, kFineSamples),
-                          AlignerOptions(source, target, options));
-  const StartFinder finder(source, target, initial, options);
-  const RigidAligner coarse = finder.Aligner(kCoarseSamples);
-  RigidResult result;
-  // The given pose is refined on the coarse surfaces.
-  ScoredPose best = Refined(coarse, initial, kCoarseIterations);
-  result.starts_tried = 1;
-  const bool stopped = options.should_stop && options.should_stop();
-  if (best.score.Better() > options.good_score && !stopped) {
-    const ScoredPose found = finder.Search(coarse, &result.starts_tried);
-    // The new pose must be clearly better than the given one.
-    if (found.score.Total() < options.preference * best.score.Total()) best = found;
-  }
-  // Finally the best pose is refined on the points themselves.
+                          AlignerOptions(source, target, options, best.reversed));
   result.target_from_source = fine.Refine(best.pose, kFineIterations);
   result.score = fine.Score(result.target_from_source).Total();
+  result.reversed = best.reversed;
   return result;
+}
+
+bool IsReversedAt(const Surface& source,
+                  const Surface& target,
+                  const Similarity& target_from_source,
+                  const RigidOptions& options) {
+  const auto score = [&](bool reversed) {
+    const RigidAligner aligner(MakeRigidSide(source, kFineSamples),
+                               MakeRigidSide(target, kFineSamples),
+                               AlignerOptions(source, target, options, reversed));
+    return aligner.Score(target_from_source).Total();
+  };
+  const bool has_sides = source.cloud().normals_oriented && target.cloud().normals_oriented;
+  return options.both_sides && has_sides && score(true) < options.preference * score(false);
 }
 
 }  // namespace ceres_ed

@@ -20,6 +20,8 @@ struct RigidResult {
   double score = 1.0;
   // The number of poses that were refined, including the given one.
   int starts_tried = 0;
+  // Whether the target is explained better inside out, with all its normals reversed.
+  bool reversed = false;
 };
 
 // Returns the pose that explains most of the surface that is explained better.
@@ -33,12 +35,24 @@ struct RigidResult {
 // replaces the given pose if it is better by the factor `preference`. Finally ICP runs on the
 // points themselves.
 //
+// Where the given pose misses more than good_score and options.both_sides is set, the target is
+// also taken inside out: first at the given pose, and if this does not tell the sides apart and no
+// pose is good, in a search of its own. It is reversed if this is better by the factor
+// `preference`.
+//
 // Rotations that explain the smaller surface equally well cannot be distinguished: a smooth part
 // without features is located only up to sliding.
 RigidResult AlignRigid(const Surface& source,
                        const Surface& target,
                        const Similarity& initial,
                        const RigidOptions& options);
+
+// Returns whether at `target_from_source` the target is explained better inside out: by the factor
+// `preference`.
+bool IsReversedAt(const Surface& source,
+                  const Surface& target,
+                  const Similarity& target_from_source,
+                  const RigidOptions& options);
 
 }  // namespace ceres_ed
 

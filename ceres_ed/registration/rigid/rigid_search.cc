@@ -100,7 +100,8 @@ class Searcher {
   Searcher(const CoarseSurface& query,
            double base_per_query,
            const CoarseSurface& base,
-           bool oriented);
+           bool oriented,
+           bool reversed);
 
   // Returns the best poses over every place and rotation of every anchor, without similar ones.
   std::vector<Hypothesis> Run(int max_count, const std::function<bool()>& should_stop) const;
@@ -139,7 +140,8 @@ std::vector<OrientedPoint> Pick(const CoarseSurface& surface,
 Searcher::Searcher(const CoarseSurface& query,
                    double base_per_query,
                    const CoarseSurface& base,
-                   bool oriented)
+                   bool oriented,
+                   bool reversed)
     : base_(base),
       oriented_(oriented),
       diagonal_(base_per_query * Diagonal(query.points())),
@@ -149,6 +151,11 @@ Searcher::Searcher(const CoarseSurface& query,
   samples_ = Pick(query, base_per_query, FarthestPointSample(query.points(), spread));
   const Moments moments = MomentsOf(query.points());
   anchors_ = Pick(query, base_per_query, Anchors(query, moments));
+  if (reversed) {
+    // Only the side of one surface relative to that of the other matters.
+    for (OrientedPoint& sample : samples_) sample.normal = -sample.normal;
+    for (OrientedPoint& anchor : anchors_) anchor.normal = -anchor.normal;
+  }
   for (double spacing = kPlaceSpacing * diagonal_;; spacing *= 1.2) {
     const std::vector<int> places = UniformDownsample(base.points(), spacing);
     if (static_cast<int>(places.size()) > kMaxPlaces) continue;
@@ -254,7 +261,7 @@ std::vector<Similarity> SearchRigidly(const CoarseSurface& source,
   const double base_per_query = source_is_query ? options.scale : 1.0 / options.scale;
   std::vector<Similarity> poses;
   if (query.size() == 0) return poses;
-  const Searcher searcher(query, base_per_query, base, options.oriented);
+  const Searcher searcher(query, base_per_query, base, options.oriented, options.reversed);
   for (const Hypothesis& hypothesis : searcher.Run(options.max_count, options.should_stop)) {
     Similarity base_from_query;
     base_from_query.scale = base_per_query;

@@ -17,6 +17,8 @@ struct RigidSearchOptions {
   // Whether the sign of the normals of both surfaces is known; otherwise each anchor is tried with
   // both signs. Default true.
   bool oriented = true;
+  // Whether the normals of the target are taken the other way round; default false.
+  bool reversed = false;
   // The largest number of poses to return, >= 1; default 30.
   int max_count = 30;
   // Called from time to time; if it returns true, the search ends with the poses found so far.

@@ -1,0 +1,62 @@
+#include "ceres_ed/registration/placement.h"
+
+#include <ceres_ed/registration/rigid/rigid_registration.h>
+
+#include <utility>
+
+namespace ceres_ed {
+namespace {
+
+// Returns the pose that the landmarks determine, or the identity if they do not determine one.
+Similarity PoseFromLandmarks(const FitInput& input, bool with_scale) {
+  std::vector<Eigen::Vector3d> from;
+  std::vector<Eigen::Vector3d> to;
+  for (const Landmark& landmark : input.landmarks) {
+    from.push_back(input.source.points[landmark.point]);
+    to.push_back(landmark.position);
+  }
+  const StatusOr<Similarity> pose = Similarity::FitPoints(from, to, with_scale);
+  return pose.ok() ? *pose : Similarity();
+}
+
+}  // namespace
+
+Placement PlaceSurfaces(const FitInput& input,
+                        const Surface& source,
+                        const FitOptions& options,
+                        const std::function<bool()>& should_stop) {
+  Placement placement;
+  const bool is_rigid_stage = options.rigid_first && input.fixed_points.empty();
+  if (is_rigid_stage) {
+    placement.target_from_source = PoseFromLandmarks(input, options.rigid.with_scale);
+  }
+  if (input.target.empty()) return placement;
+  PreparedSurface prepared = PrepareSurface(input.target, "the target", options.num_threads);
+  placement.target = std::move(prepared.surface);
+  placement.notes = std::move(prepared.notes);
+
+  RigidOptions rigid = options.rigid;
+  rigid.num_threads = options.num_threads;
+  rigid.should_stop = should_stop;
+  bool reversed = false;
+  if (AreBothClosed(source, *placement.target, &reversed)) rigid.both_sides = false;
+  if (reversed) placement.target = Reversed(*placement.target, options.num_threads);
+  bool reversed_by_pose = false;
+  if (is_rigid_stage) {
+    const RigidResult result =
+        AlignRigid(source, *placement.target, placement.target_from_source, rigid);
+    placement.target_from_source = result.target_from_source;
+    reversed_by_pose = result.reversed;
+  } else {
+    reversed_by_pose = IsReversedAt(source, *placement.target, placement.target_from_source, rigid);
+  }
+  if (reversed_by_pose) placement.target = Reversed(*placement.target, options.num_threads);
+  if (reversed || reversed_by_pose) {
+    placement.notes.push_back(
+        "source and target have opposite orientations (winding or normals): the target is taken "
+        "inside out");
+  }
+  return placement;
+}
+
+}  // namespace ceres_ed
