@@ -52,7 +52,9 @@ StatusOr<LoadedCloud> CloudFromDocument(const std::string& path, PlyDocument doc
 // Returns `original` with new points: x y z of row vertex_of_point[i] becomes points[i], and its
 // normal, if the original has normals and `normals` is not null, becomes (*normals)[i]. All other
 // rows, elements, properties and comments, the order and the format are not changed. Types are not
-// changed either, except for integer coordinates or normals, which become double.
+// changed either, with two exceptions: integer coordinates or normals become double, and so do the
+// coordinates where floats would move a point by more than 1e-5 of the cloud's diagonal (far from
+// the origin, for example in UTM).
 PlyDocument MoveVertices(const PlyDocument& original,
                          const std::vector<int>& vertex_of_point,
                          const std::vector<Eigen::Vector3d>& points,
@@ -74,7 +76,8 @@ Status SaveCloud(const std::string& path,
 
 struct CloudWriteOptions {
   PlyFormat format = PlyFormat::kBinaryLittleEndian;
-  // If true, positions and normals are written as double, otherwise as float.
+  // If true, positions and normals are written as double, otherwise as float (but positions that
+  // floats cannot hold, far from the origin, always as double).
   bool double_precision = false;
   // Comment lines for the header.
   std::vector<std::string> comments;

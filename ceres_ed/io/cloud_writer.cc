@@ -1,6 +1,7 @@
 #include "ceres_ed/io/cloud_io.h"
 
 #include <ceres_ed/io/mesh/mesh_format.h>
+#include <ceres_ed/io/mesh/position_type.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 
 #include <cstddef>
@@ -14,14 +15,15 @@ namespace ceres_ed {
 namespace {
 
 // Replaces the vectors of some rows. A column of integers becomes double, since rounding positions
-// to integers would destroy them.
+// to integers would destroy them; with `as_doubles` every column does.
 void ReplaceRows(const std::vector<Eigen::Vector3d>& vectors,
                  const std::vector<int>& rows,
                  const VertexColumns& columns,
+                 bool as_doubles,
                  PlyElement* element) {
   for (std::size_t axis = 0; axis < columns.size(); ++axis) {
     PlyProperty& property = element->properties[columns[axis]];
-    if (!IsFloatingPlyType(property.type)) property.type = PlyType::kFloat64;
+    if (as_doubles || !IsFloatingPlyType(property.type)) property.type = PlyType::kFloat64;
     for (std::size_t i = 0; i < vectors.size(); ++i) {
       property.values[static_cast<std::size_t>(rows[i])] =
           vectors[i][static_cast<Eigen::Index>(axis)];
@@ -34,7 +36,8 @@ PlyElement MakeVertexElement(const PointCloud& cloud, const CloudWriteOptions& o
   vertices.name = "vertex";
   vertices.count = cloud.size();
   const PlyType type = options.double_precision ? PlyType::kFloat64 : PlyType::kFloat32;
-  AppendVectorColumns(cloud.points, {"x", "y", "z"}, type, &vertices);
+  const PlyType position_type = options.double_precision ? type : PositionType(cloud.points);
+  AppendVectorColumns(cloud.points, {"x", "y", "z"}, position_type, &vertices);
   if (cloud.HasNormals()) AppendVectorColumns(cloud.normals, {"nx", "ny", "nz"}, type, &vertices);
   if (!options.colors.empty()) {
     CHECK_EQ(options.colors.size(), cloud.size()) << "one color a point";
@@ -81,11 +84,11 @@ PlyDocument MoveVertices(const PlyDocument& original,
   }
   const std::optional<VertexColumns> position_columns = FindPositionColumns(*vertices);
   CHECK(position_columns.has_value()) << "the original has no x y z";
-  ReplaceRows(points, vertex_of_point, *position_columns, vertices);
+  ReplaceRows(points, vertex_of_point, *position_columns, NeedsDoubles(points), vertices);
   const std::optional<VertexColumns> normal_columns = FindNormalColumns(*vertices);
   if (normals != nullptr && normal_columns.has_value()) {
     CHECK_EQ(normals->size(), points.size()) << "one normal a point";
-    ReplaceRows(*normals, vertex_of_point, *normal_columns, vertices);
+    ReplaceRows(*normals, vertex_of_point, *normal_columns, /*as_doubles=*/false, vertices);
   }
   return document;
 }

@@ -1,6 +1,7 @@
 #include "ceres_ed/io/graph_io.h"
 
 #include <ceres_ed/io/mesh/ply_writer.h>
+#include <ceres_ed/io/mesh/position_type.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 
 #include <array>
@@ -45,12 +46,12 @@ PlyElement MakeNodeElement(const DeformationGraph& graph,
   PlyElement nodes;
   nodes.name = "vertex";
   nodes.count = num_nodes;
-  AppendVectorColumns(positions, {"x", "y", "z"}, PlyType::kFloat32, &nodes);
+  AppendVectorColumns(positions, {"x", "y", "z"}, PositionType(positions), &nodes);
   const std::vector<double> relevant = pr.values;
   nodes.properties.push_back(std::move(pr));
   if (options.with_colors) AppendColors(relevant, &nodes);
   const std::vector<Eigen::Vector3d> rest(graph.positions().begin(), graph.positions().end());
-  AppendVectorColumns(rest, {"rest_x", "rest_y", "rest_z"}, PlyType::kFloat32, &nodes);
+  AppendVectorColumns(rest, {"rest_x", "rest_y", "rest_z"}, PositionType(rest), &nodes);
   return nodes;
 }
 

@@ -25,7 +25,8 @@ struct GraphWriteOptions {
 
 // Writes the graph to `path`: element 'vertex' has float x y z (deformed position), int pr (1 for a
 // PR node) and float rest_x rest_y rest_z (g_j in the frame of the graph); element 'edge' has int
-// vertex1 vertex2 and float alpha, for each directed edge. The error gives the system's reason.
+// vertex1 vertex2 and float alpha, for each directed edge. Positions that floats
+// cannot hold, far from the origin, are double. The error gives the system's reason.
 Status WriteGraph(const std::string& path,
                   const DeformationGraph& graph,
                   const DeformationState& state,

@@ -248,6 +248,37 @@ TEST_F(CloudIo, SaveDoesNotRoundPositionsOfAnIntegerFile) {
   EXPECT_EQ(again->cloud.points[0], Eigen::Vector3d(1.25, 2.5, -3.1));
 }
 
+TEST_F(CloudIo, SaveTakesDoublesWhereFloatsCannotHoldThePositions) {
+  const StatusOr<LoadedCloud> loaded =
+      Load(PointsPly("property float x\nproperty float y\nproperty float z\n"
+                     "property float nx\nproperty float ny\nproperty float nz\n",
+                     {"1 2 3 0 0 1", "4 5 6 0 0 1"}));
+  ASSERT_TRUE(loaded.ok());
+  const std::string out = directory_ / "out.ply";
+  // UTM coordinates of a slope: floats there are half a metre apart.
+  const std::vector<Eigen::Vector3d> far = {{465432.26, 5249876.51, 1843.1},
+                                            {465440.13, 5249881.27, 1845.9}};
+  ASSERT_TRUE(SaveCloud(out, *loaded, far, nullptr).ok());
+  const StatusOr<LoadedCloud> again = LoadCloud(out);
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(again->cloud.points, far);
+  EXPECT_EQ(again->document.Find("vertex")->Find("nx")->type, PlyType::kFloat32);
+  // Near the origin the type of the file is kept.
+  ASSERT_TRUE(SaveCloud(out, *loaded, {{1.1, 2.1, 3.1}, {4.1, 5.1, 6.1}}, nullptr).ok());
+  const StatusOr<LoadedCloud> near = LoadCloud(out);
+  ASSERT_TRUE(near.ok());
+  EXPECT_EQ(near->document.Find("vertex")->Find("y")->type, PlyType::kFloat32);
+}
+
+TEST_F(CloudIo, WriteCloudTakesDoublesWhereFloatsCannotHoldThePositions) {
+  PointCloud cloud;
+  cloud.points = {{465432.26, 5249876.51, 1843.1}, {465440.13, 5249881.27, 1845.9}};
+  ASSERT_TRUE(WriteCloud(path_, cloud).ok());
+  const StatusOr<LoadedCloud> again = LoadCloud(path_);
+  ASSERT_TRUE(again.ok());
+  EXPECT_EQ(again->cloud.points, cloud.points);
+}
+
 TEST_F(CloudIo, WriteCloudReadsBackWithColumnsAndColors) {
   PointCloud cloud;
   cloud.points = {{0.1, 0.2, 0.3}, {1, 0, 0}, {0, 1, 1.0 / 3.0}};
