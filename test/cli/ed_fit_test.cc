@@ -241,6 +241,28 @@ TEST_F(EdFitTest, WarnsOfVerticesThatAreNotFiniteAndKeepsTheirRows) {
   EXPECT_TRUE(std::isnan(fitted.document.Find("vertex")->Find("x")->values[77]));
 }
 
+TEST_F(EdFitTest, LeavesOutVerticesThatWereNotMeasuredOrAreFarAway) {
+  ASSERT_EQ(FitPair().exit_code, 0);
+  const std::vector<Eigen::Vector3d> expected = Load("out.ply").cloud.points;
+  RingOptions source;
+  RingOptions target;
+  source.more_vertices = {"0 0 0", "0 0 0"};
+  target.more_vertices = {"900 0 0"};
+  WritePair(source, target);
+  const ProgramResult result = FitPair();
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err,
+              HasSubstr("source.ply: 2 vertices at 0 0 0 that were not measured left "
+                        "out (first: vertex 288 at 0 0 0)"));
+  EXPECT_THAT(result.err,
+              HasSubstr("target.ply: 1 vertex far from all others left out (first: "
+                        "vertex 527 at 900 0 0)"));
+  const std::vector<Eigen::Vector3d> points = Load("out.ply").cloud.points;
+  ASSERT_EQ(points.size(), expected.size() + 2);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(points[i], expected[i]) << i;
+  EXPECT_EQ(points.back(), Eigen::Vector3d::Zero());
+}
+
 TEST_F(EdFitTest, AddsAnEnergyOfAPlugin) {
   const ProgramResult result = FitPair({std::string("--plugin=") + CERES_ED_GOOD_PLUGIN,
                                         "--energy=anchor:gain=3,weight=0.5;rotation:weight=2",

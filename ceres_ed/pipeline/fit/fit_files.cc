@@ -2,8 +2,10 @@
 
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/io/graph_io.h>
+#include <ceres_ed/io/mesh/vertex_columns.h>
 #include <ceres_ed/io/point_list_io.h>
 #include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/pipeline/fit/stray_vertices.h>
 #include <ceres_ed/pipeline/outputs.h>
 
 #include <cmath>
@@ -34,9 +36,17 @@ std::vector<int> PointsOfVertices(const FitFiles& files) {
   return points;
 }
 
-Status NotFinite(const std::string& list, int vertex, const std::string& source) {
-  return Status::Error(list + ": names vertex " + std::to_string(vertex) +
-                       ", which is not finite in " + source + ", expected a finite one");
+Status LeftOut(const std::string& list, int vertex, const FitFiles& files) {
+  const PlyElement& vertices = *files.source_document.Find("vertex");
+  const Eigen::Vector3d at =
+      RowOf(vertices, *FindPositionColumns(vertices), static_cast<std::size_t>(vertex));
+  const std::string names = list + ": names vertex " + std::to_string(vertex);
+  if (!at.allFinite()) {
+    return Status::Error(names + ", which is not finite in " + files.source.path +
+                         ", expected a finite one");
+  }
+  return Status::Error(names + ", which was left out of " + files.source.path +
+                       " (not measured, or far from all others), expected another one");
 }
 
 Status LoadLandmarks(const std::string& path, FitFiles* files) {
@@ -45,7 +55,7 @@ Status LoadLandmarks(const std::string& path, FitFiles* files) {
   const std::vector<int> points = PointsOfVertices(*files);
   for (const Landmark& landmark : *landmarks) {
     const int point = points[landmark.point];
-    if (point < 0) return NotFinite(path, landmark.point, files->source.path);
+    if (point < 0) return LeftOut(path, landmark.point, *files);
     files->input.landmarks.push_back({point, landmark.position});
   }
   return Status::Ok();
@@ -56,7 +66,7 @@ Status LoadFixed(const std::string& path, FitFiles* files) {
   if (!vertices.ok()) return vertices.status();
   const std::vector<int> points = PointsOfVertices(*files);
   for (const int vertex : *vertices) {
-    if (points[vertex] < 0) return NotFinite(path, vertex, files->source.path);
+    if (points[vertex] < 0) return LeftOut(path, vertex, *files);
     files->input.fixed_points.push_back(points[vertex]);
   }
   return Status::Ok();
@@ -91,6 +101,7 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
   FitFiles files;
   StatusOr<LoadedCloud> source = LoadCloud(settings.source);
   if (!source.ok()) return source.status();
+  LeaveOutStrayVertices(settings.source, &*source);
   files.source = Describe(settings.source, *source);
   files.input.source = std::move(source->cloud);
   files.source_document = std::move(source->document);
@@ -99,6 +110,7 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
   if (!settings.target.empty()) {
     StatusOr<LoadedCloud> target = LoadCloud(settings.target);
     if (!target.ok()) return target.status();
+    LeaveOutStrayVertices(settings.target, &*target);
     files.target = Describe(settings.target, *target);
     files.input.target = std::move(target->cloud);
     Append(target->warnings, &files.warnings);
