@@ -61,8 +61,11 @@ class MultiSeedSearch {
     std::push_heap(queue_.begin(), queue_.end(), Farther());
   }
 
-  void Run() {
+  void Run(const std::function<bool()>& should_stop) {
+    constexpr int kStepsPerCheck = 1 << 14;
+    int steps = 0;
     while (!queue_.empty()) {
+      if (++steps % kStepsPerCheck == 0 && should_stop && should_stop()) return;
       std::pop_heap(queue_.begin(), queue_.end(), Farther());
       const QueueEntry entry = queue_.back();
       queue_.pop_back();
@@ -109,7 +112,8 @@ int NearestSeeds::Count(int point) const {
 NearestSeeds NearestSeedsAlongSurface(const SurfaceTopology& topology,
                                       const std::vector<int>& seed_points,
                                       int k,
-                                      const std::vector<double>& offsets) {
+                                      const std::vector<double>& offsets,
+                                      const std::function<bool()>& should_stop) {
   CHECK_GE(k, 1);
   CHECK(offsets.empty() || offsets.size() == seed_points.size())
       << offsets.size() << " offsets of " << seed_points.size() << " seeds";
@@ -121,7 +125,7 @@ NearestSeeds NearestSeedsAlongSurface(const SurfaceTopology& topology,
     CHECK_GE(offset, 0.0) << "offset of seed " << seed;
     search.Relax(topology.representative[point], static_cast<int>(seed), offset);
   }
-  search.Run();
+  search.Run(should_stop);
   return search.TakeResult();
 }
 

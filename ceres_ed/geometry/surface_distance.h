@@ -5,6 +5,7 @@
 #include <ceres_ed/geometry/topology.h>
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace ceres_ed {
@@ -31,11 +32,13 @@ struct NearestSeeds {
 // points; the same position may be a seed more than once. `offsets` is empty, or has one length >=
 // 0 for each seed, which is added to every distance from it. The distance is symmetric up to
 // rounding. It is exact on a plane along mesh edges and across two triangles. In all other cases it
-// is too long, by at most 4 % on equilateral triangles and 8 % on a grid of right triangles.
+// is too long, by at most 4 % on equilateral triangles and 8 % on a grid of right triangles. If
+// `should_stop` returns true, the search ends, and more points are unreached.
 NearestSeeds NearestSeedsAlongSurface(const SurfaceTopology& topology,
                                       const std::vector<int>& seed_points,
                                       int k,
-                                      const std::vector<double>& offsets = {});
+                                      const std::vector<double>& offsets = {},
+                                      const std::function<bool()>& should_stop = {});
 
 }  // namespace ceres_ed
 

@@ -62,9 +62,10 @@ Skinning BindAlongSurface(const std::vector<Eigen::Vector3d>& points,
                           const std::vector<Eigen::Vector3d>& node_positions,
                           const std::vector<int>& node_points,
                           const std::vector<double>& offsets,
-                          int neighbors) {
+                          int neighbors,
+                          const std::function<bool()>& should_stop) {
   const NearestSeeds nearest =
-      NearestSeedsAlongSurface(topology, node_points, neighbors + 1, offsets);
+      NearestSeedsAlongSurface(topology, node_points, neighbors + 1, offsets, should_stop);
   const KdTree node_tree(node_positions);
   Skinning skinning(neighbors);
   std::array<double, kMaxBoundNodes> weights;
@@ -135,7 +136,8 @@ int ComputeWeights(const double* distances, int count, int neighbors, double* we
 Skinning BindPoints(const PointCloud& cloud,
                     const SurfaceTopology& topology,
                     const std::vector<int>& node_points,
-                    const BindingOptions& options) {
+                    const BindingOptions& options,
+                    const std::function<bool()>& should_stop) {
   std::string error;
   CHECK(options.IsValid(&error)) << error;
   CHECK(!node_points.empty()) << "binding needs a node";
@@ -146,7 +148,7 @@ Skinning BindPoints(const PointCloud& cloud,
     return BindInSpace(cloud.points, node_positions, options);
   }
   return BindAlongSurface(
-      cloud.points, topology, node_positions, node_points, {}, options.neighbors);
+      cloud.points, topology, node_positions, node_points, {}, options.neighbors, should_stop);
 }
 
 StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
@@ -174,7 +176,7 @@ StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
   std::vector<double> offsets;
   EnterSurface(cloud, topology, graph, &entry_points, &offsets);
   return BindAlongSurface(
-      cloud.points, topology, node_positions, entry_points, offsets, options.neighbors);
+      cloud.points, topology, node_positions, entry_points, offsets, options.neighbors, {});
 }
 
 }  // namespace ceres_ed

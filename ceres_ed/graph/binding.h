@@ -9,6 +9,7 @@
 #include <ceres_ed/graph/skinning.h>
 #include <ceres_ed/util/status.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -35,11 +36,13 @@ int ComputeWeights(const double* distances, int count, int neighbors, double* we
 // Returns the binding of every point of `cloud` to nodes, which are at the points `node_points` of
 // the cloud. `topology` is the topology of `cloud`. If distances are measured along the surface,
 // points that no node reaches (isolated vertices, components without a node) are bound to the nodes
-// nearest in space. Fails a CHECK on bad options and if `node_points` is empty.
+// nearest in space; so are those that are not reached yet when `should_stop` returns true. Fails a
+// CHECK on bad options and if `node_points` is empty.
 Skinning BindPoints(const PointCloud& cloud,
                     const SurfaceTopology& topology,
                     const std::vector<int>& node_points,
-                    const BindingOptions& options);
+                    const BindingOptions& options,
+                    const std::function<bool()>& should_stop = {});
 
 // Returns the binding of any other cloud near the graph's rest shape. It need not share points with
 // the cloud from which the graph was built. If distances are measured along the surface, each node

@@ -190,9 +190,15 @@ StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
   }
   WarnAboutNodes(plan, &built);
 
+  const auto stopped = [&options] { return options.should_stop && options.should_stop(); };
+  const Status stop = Status::Error("stopped before the graph was built");
+  if (stopped()) return stop;
+
   // 2. Bind all points to the nodes (Eq. 2).
   built.binding = {options.neighbors, plan.distance, options.num_threads};
-  built.skinning = BindPoints(cloud, topology, built.node_points, built.binding);
+  built.skinning =
+      BindPoints(cloud, topology, built.node_points, built.binding, options.should_stop);
+  if (stopped()) return stop;
 
   // 3. Link nodes by the edges of E_reg (Eq. 6).
   for (const int point : built.node_points) built.graph.AddNode(cloud.points[point]);

@@ -35,8 +35,9 @@ struct BuiltGraph {
 
 // Returns the graph of `cloud`, whose topology is `topology`. Returns an error for bad options, for
 // a cloud without points or with all points at one place, for a point that is not finite, and if
-// more nodes are wanted than there are different points. Two runs give the same bits. If points and
-// spacing are scaled together, the positions are scaled and nothing else changes.
+// more nodes are wanted than there are different points, or if options.should_stop ends it. Two
+// runs give the same bits. If points and spacing are scaled together, the positions are scaled and
+// nothing else changes.
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
                                 const SurfaceTopology& topology,
                                 const GraphOptions& options);

@@ -5,6 +5,7 @@
 #include <ceres_ed/util/named_values.h>
 
 #include <array>
+#include <functional>
 #include <string>
 
 namespace ceres_ed {
@@ -85,6 +86,8 @@ struct GraphOptions {
   // Components of a mesh with fewer positions than this get no node. They follow the nodes that are
   // nearest in space. >= 1.
   int min_component_points = 10;
+  // Called from time to time; if it returns true, BuildGraph() ends with an error.
+  std::function<bool()> should_stop;
   // If true, the connected pieces of the graph are joined by edges, so that they move together.
   bool join_pieces = true;
   // The number of edges at each such joint, >= 1. Three edges keep a piece from turning.

@@ -28,7 +28,8 @@ double NumOperations(const std::vector<Front>& fronts) {
 // tried for large factors and kept if it needs fewer operations.
 FactorLayout LayOut(const BlockStructure& structure,
                     const BlockVertices& vertices,
-                    int num_trailing) {
+                    int num_trailing,
+                    const std::function<bool()>& should_stop) {
   const std::vector<BlockPiece> pieces = vertices.Pieces(structure);
   const RowGraph graph = vertices.Graph(pieces);
   const auto fronts_by = [&](OrderingMethod method) {
@@ -37,7 +38,8 @@ FactorLayout LayOut(const BlockStructure& structure,
     return BuildFronts(graph, order, num_trailing);
   };
   std::vector<Front> fronts = fronts_by(OrderingMethod::kMinimumDegree);
-  if (HasNestedDissection() && NumOperations(fronts) > kSmallFactor) {
+  const bool stopped = should_stop && should_stop();
+  if (HasNestedDissection() && NumOperations(fronts) > kSmallFactor && !stopped) {
     std::vector<Front> other = fronts_by(OrderingMethod::kNestedDissection);
     if (NumOperations(other) < NumOperations(fronts)) fronts = std::move(other);
   }
@@ -47,12 +49,16 @@ FactorLayout LayOut(const BlockStructure& structure,
 }  // namespace
 
 struct BlockCholesky::Impl {
-  Impl(const BlockStructure& block_structure, int trailing, FactorMemory* memory)
+  Impl(const BlockStructure& block_structure,
+       int trailing,
+       FactorMemory* memory,
+       const std::function<bool()>& should_stop)
       : structure(block_structure),
         num_trailing_rows(structure.num_rows() -
                           structure.row_offset(structure.num_blocks() - trailing)),
         vertices(structure, trailing),
-        factor(LayOut(structure, vertices, trailing), memory != nullptr ? memory : &own_memory),
+        factor(LayOut(structure, vertices, trailing, should_stop),
+               memory != nullptr ? memory : &own_memory),
         ordered(structure.num_rows()) {}
 
   void ToOrdered(const Eigen::VectorXd& rows);
@@ -90,16 +96,18 @@ Eigen::VectorXd BlockCholesky::Impl::FromOrdered() const {
 
 BlockCholesky::BlockCholesky(const BlockStructure& structure,
                              int num_trailing,
-                             FactorMemory* memory)
-    : impl_(std::make_unique<Impl>(structure, num_trailing, memory)) {}
+                             FactorMemory* memory,
+                             const std::function<bool()>& should_stop)
+    : impl_(std::make_unique<Impl>(structure, num_trailing, memory, should_stop)) {}
 
 BlockCholesky::~BlockCholesky() = default;
 
 bool BlockCholesky::Factorize(const double* values,
                               const Eigen::VectorXd& diagonal,
-                              int num_threads) {
+                              int num_threads,
+                              const std::function<bool()>& should_stop) {
   impl_->ToOrdered(diagonal);
-  return impl_->factor.Factorize(values, impl_->ordered, num_threads);
+  return impl_->factor.Factorize(values, impl_->ordered, num_threads, should_stop);
 }
 
 Eigen::VectorXd BlockCholesky::Solve(const Eigen::VectorXd& rhs) {

@@ -7,6 +7,7 @@
 #include <ceres_ed/linear_algebra/selected_inverse.h>
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 
 #include <Eigen/Core>
@@ -27,10 +28,12 @@ class BlockCholesky {
   // Analyses `structure`, which must outlive this object. Its last `num_trailing` blocks also come
   // last in the order of elimination, so that the factor ends with their rows and columns. `memory`
   // must outlive this object and must not serve another factor at the same time; if it is null, the
-  // object uses memory of its own.
+  // object uses memory of its own. If `should_stop` returns true, a faster analysis is made that
+  // gives more fill.
   explicit BlockCholesky(const BlockStructure& structure,
                          int num_trailing = 0,
-                         FactorMemory* memory = nullptr);
+                         FactorMemory* memory = nullptr,
+                         const std::function<bool()>& should_stop = {});
   ~BlockCholesky();
   BlockCholesky(const BlockCholesky&) = delete;
   BlockCholesky& operator=(const BlockCholesky&) = delete;
@@ -39,7 +42,11 @@ class BlockCholesky {
   // structure (only the lower triangle of a diagonal block is read), and `diagonal` has num_rows()
   // entries. Returns false if the sum is not positive definite (with dual blocks: not
   // quasi-definite). The result has the same bits at any number of threads.
-  bool Factorize(const double* values, const Eigen::VectorXd& diagonal, int num_threads = 1);
+  // Also returns false if `should_stop`, which is called by one thread at a time, returns true.
+  bool Factorize(const double* values,
+                 const Eigen::VectorXd& diagonal,
+                 int num_threads = 1,
+                 const std::function<bool()>& should_stop = {});
 
   // Returns the solution for a right side `rhs` of num_rows() entries, with the last successful
   // factor.

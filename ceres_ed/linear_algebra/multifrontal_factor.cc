@@ -170,7 +170,8 @@ void MultifrontalFactor::PlaceUpdate(int f, int thread) {
 
 bool MultifrontalFactor::Factorize(const double* values,
                                    const Eigen::VectorXd& diagonal,
-                                   int num_threads) {
+                                   int num_threads,
+                                   const std::function<bool()>& should_stop) {
   const int num_tasks = static_cast<int>(layout_.tasks.size());
   const int task_threads = std::max(1, std::min(num_threads, num_tasks));
   memory_->updates.Require(layout_.kept_size + task_threads * layout_.stack_size);
@@ -180,6 +181,7 @@ bool MultifrontalFactor::Factorize(const double* values,
     for (int thread = begin; thread < end; ++thread) {
       for (int t = next++; t < num_tasks && ok; t = next++) {
         for (int f = layout_.tasks[t].first; f < layout_.tasks[t].last && ok; ++f) {
+          if (thread == 0 && should_stop && should_stop()) ok = false;
           PlaceUpdate(f, thread);
           if (!FactorizeFront(f, values, diagonal, 1)) ok = false;
         }
@@ -192,6 +194,7 @@ bool MultifrontalFactor::Factorize(const double* values,
       f = layout_.tasks[task++].last - 1;
       continue;
     }
+    if (should_stop && should_stop()) ok = false;
     PlaceUpdate(f, 0);
     if (!FactorizeFront(f, values, diagonal, num_threads)) ok = false;
   }

@@ -6,6 +6,7 @@
 #include <ceres_ed/linear_algebra/front_layout.h>
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,8 +23,12 @@ class MultifrontalFactor {
   const FactorLayout& layout() const { return layout_; }
 
   // Factorises the matrix with these `values` and `diagonal` added. Returns false if it is not
-  // quasi-definite. The result has the same bits at any number of threads.
-  bool Factorize(const double* values, const Eigen::VectorXd& diagonal, int num_threads);
+  // quasi-definite, or if `should_stop`, which is called by one thread at a time, returns true. The
+  // result has the same bits at any number of threads.
+  bool Factorize(const double* values,
+                 const Eigen::VectorXd& diagonal,
+                 int num_threads,
+                 const std::function<bool()>& should_stop);
 
   // Replace `ordered` by L^-1 ordered, S ordered and L^-T ordered.
   void SolveForward(Eigen::VectorXd* ordered);

@@ -29,9 +29,9 @@ BlockStructure StructureOf(const SparseCholesky::Matrix& lower) {
 }  // namespace
 
 struct SparseCholesky::Impl {
-  explicit Impl(const Matrix& lower)
+  Impl(const Matrix& lower, const std::function<bool()>& should_stop)
       : structure(StructureOf(lower)),
-        factor(structure),
+        factor(structure, 0, nullptr, should_stop),
         no_more(Eigen::VectorXd::Zero(structure.num_rows())) {}
 
   const BlockStructure structure;
@@ -40,13 +40,14 @@ struct SparseCholesky::Impl {
   const Eigen::VectorXd no_more;
 };
 
-SparseCholesky::SparseCholesky(const Matrix& lower) : impl_(std::make_unique<Impl>(lower)) {}
+SparseCholesky::SparseCholesky(const Matrix& lower, const std::function<bool()>& should_stop)
+    : impl_(std::make_unique<Impl>(lower, should_stop)) {}
 
 SparseCholesky::~SparseCholesky() = default;
 
-bool SparseCholesky::Factorize(const Matrix& lower) {
+bool SparseCholesky::Factorize(const Matrix& lower, const std::function<bool()>& should_stop) {
   CHECK_EQ(static_cast<int>(lower.nonZeros()), impl_->structure.num_entries());
-  return impl_->factor.Factorize(lower.valuePtr(), impl_->no_more);
+  return impl_->factor.Factorize(lower.valuePtr(), impl_->no_more, 1, should_stop);
 }
 
 Eigen::MatrixXd SparseCholesky::Solve(const Eigen::MatrixXd& rhs) {

@@ -2,6 +2,7 @@
 #ifndef CERES_ED_LINEAR_ALGEBRA_SPARSE_CHOLESKY_H_
 #define CERES_ED_LINEAR_ALGEBRA_SPARSE_CHOLESKY_H_
 
+#include <functional>
 #include <memory>
 
 #include <Eigen/Core>
@@ -17,15 +18,16 @@ class SparseCholesky {
   // starts at its diagonal.
   using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
-  // Analyses the pattern of `lower`; its values are not used.
-  explicit SparseCholesky(const Matrix& lower);
+  // Analyses the pattern of `lower`; its values are not used. If `should_stop` returns true, a
+  // faster analysis is made that gives more fill.
+  explicit SparseCholesky(const Matrix& lower, const std::function<bool()>& should_stop = {});
   ~SparseCholesky();
   SparseCholesky(const SparseCholesky&) = delete;
   SparseCholesky& operator=(const SparseCholesky&) = delete;
 
   // Factorises `lower`, which must have the pattern that was analysed. Returns false if A is not
-  // positive definite.
-  bool Factorize(const Matrix& lower);
+  // positive definite, or if `should_stop` returns true.
+  bool Factorize(const Matrix& lower, const std::function<bool()>& should_stop = {});
 
   // Returns the solution for every column of `rhs`, with the last successful factor.
   Eigen::MatrixXd Solve(const Eigen::MatrixXd& rhs);

@@ -41,16 +41,34 @@ bool EndedEarly(const FitResult& result) {
   return result.status != SolveStatus::kConverged && result.status != SolveStatus::kMaxIterations;
 }
 
+// Returns whether the fit was stopped, as opposed to failed.
+bool EndedEarlyBy(const FitResult& result) {
+  return result.status == SolveStatus::kInterrupted || result.status == SolveStatus::kTimeLimit;
+}
+
+// Returns a graph of a few nodes that takes no time to build: the warp of a fit that was stopped
+// before its graph was there. Its points do not move.
+StatusOr<BuiltGraph> GraphForNoTime(const Surface& source) {
+  GraphOptions options;
+  options.distance = DistanceRule::kEuclidean;
+  options.auto_spacing = 0.3;
+  return BuildGraph(source.cloud(), source.topology(), options);
+}
+
 }  // namespace
 
 Status CoarseToFine::BuildGraphs(int resolutions, FitResult* result) {
   const Timer timer;
   const Surface& source = *fit_.source;
-  StatusOr<BuiltGraph> finest = BuildGraph(source.cloud(), source.topology(), fit_.options->graph);
+  GraphOptions fine = fit_.options->graph;
+  fine.should_stop = [this, result] { return MustEnd(fit_, result); };
+  StatusOr<BuiltGraph> finest = BuildGraph(source.cloud(), source.topology(), fine);
+  if (!finest.ok() && EndedEarlyBy(*result)) finest = GraphForNoTime(source);
   if (!finest.ok()) return finest.status();
   result->warnings.insert(result->warnings.end(), finest->warnings.begin(), finest->warnings.end());
   for (int resolution = resolutions - 1; resolution > 0; --resolution) {
-    GraphOptions options = fit_.options->graph;
+    if (MustEnd(fit_, result)) break;
+    GraphOptions options = fine;
     options.node_spacing = finest->node_spacing * std::pow(2.0, resolution);
     options.target_nodes = 0;
     StatusOr<BuiltGraph> coarse = BuildGraph(source.cloud(), source.topology(), options);
@@ -100,6 +118,11 @@ Status CoarseToFine::Run(FitResult* result) {
   if (Status status = BuildGraphs(options.schedule.levels, result); !status.ok()) return status;
   const std::vector<ResolutionPlan> plans = PlanResolutions(fit_, static_cast<int>(graphs_.size()));
   const int last = static_cast<int>(graphs_.size()) - 1;
+  if (MustEnd(fit_, result)) {
+    graph_ = last;
+    state_ = DeformationState(graphs_[last].graph.num_nodes());
+    return Status::Ok();
+  }
   // Without matches, or with a loss that has no width, there is only one way.
   struct Way {
     double loss_width;

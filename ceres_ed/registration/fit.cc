@@ -93,6 +93,9 @@ class Fitter {
   void Place();
   // Stores the surfaces in the unit frame, with a denoised target.
   void TakeToUnitFrame(const PointCloud& source, const PointCloud* target);
+  void Report(const char* stage, double fraction) const {
+    if (options_.on_progress) options_.on_progress({stage, fraction, 0, 0.0, 0.0});
+  }
   bool MustStop() const {
     return (options_.should_stop && options_.should_stop()) ||
            clock_.Seconds() >= options_.time_limit_s;
@@ -125,7 +128,7 @@ class Fitter {
 void Fitter::Place() {
   const Timer timer;
   const bool is_placed = options_.rigid_first && input_.fixed_points.empty();
-  if (is_placed && options_.on_progress) options_.on_progress({"rigid", 0.0, 0, 0.0, 0.0});
+  if (is_placed) Report("rigid", 0.0);
   PreparedSurface made;
   if (prepared_source_ == nullptr) {
     made = PrepareSurface(input_.source, "the source", options_.num_threads);
@@ -199,6 +202,8 @@ void Fitter::FinishEveryVertex(const UnitFit& fit,
   input.landmarks = fit.landmarks;
   input.fixed = fit.fixed;
   input.matching = fit.options->matching;
+  input.should_stop = [this, &fit] { return MustEnd(fit, &result_); };
+  input.on_progress = [this](double part) { Report("finish", part); };
   const FinishResult finish = FinishVertices(input, options_.finish_options);
   if (finish.moved) {
     std::vector<Eigen::Vector3d> displacements = finish.points;
@@ -226,12 +231,14 @@ void Fitter::AddToFinish(const std::vector<Eigen::Vector3d>& displacements, Poin
 }
 
 void Fitter::Unfold(const UnitFit& fit, PointCloud* fitted) {
-  if (!options_.unfold || !fitted->HasTriangles()) return;
+  if (!options_.unfold || !fitted->HasTriangles() || MustEnd(fit, &result_)) return;
+  Report("unfold", 0.0);
   const Timer timer;
   const WeldedMesh mesh = BuildWeldedMesh(fit.source->cloud(), fit.source->topology());
   UnfoldInput input;
   input.mesh = &mesh;
   input.target = fit.target;
+  input.should_stop = [this, &fit] { return MustEnd(fit, &result_); };
   for (const auto* constraints : {&fit.landmarks, &fit.fixed}) {
     for (const Correspondence& held : *constraints) {
       input.held.push_back(mesh.vertex_of_point[held.point]);
@@ -317,6 +324,7 @@ StatusOr<FitResult> Fitter::Run() {
                        InUnitFrame(fixed, unit_from_target_),
                        noise_,
                        &clock_};
+  Report("graph", 0.0);
   CoarseToFine coarse_to_fine(fit);
   if (Status status = coarse_to_fine.Run(&result_); !status.ok()) return status;
   // 3. The warp in the source frame, and the finish of every vertex.

@@ -68,6 +68,7 @@ const OptionTable<RigidOptions>& RigidOptions::Rows() {
           "Another pose must miss less than this times what the given pose misses.")
           .In(AboveUpTo(0, 1)),
       Row(&O::num_threads, "num_threads", "The result does not depend on it.").In(AtLeast(1)),
+      NotData(&O::both_sides),
       NotData(&O::should_stop),
   });
   return rows;

@@ -154,11 +154,13 @@ struct FitSchedule {
 
 // The progress of a fit.
 struct FitProgress {
-  // "rigid" once before the source is placed, and "fit" after each round of matching and solving.
+  // "rigid" once before the source is placed, "graph" once before the graphs are built, "fit" after
+  // each round of matching and solving, "finish" several times, and "unfold" once.
   std::string stage;
-  // The part of the fit that is done, in [0, 1].
+  // The part of the stage that is done, in [0, 1].
   double fraction = 0.0;
-  // The number of accepted pairs. While the stage is "rigid", this and the values below are 0.
+  // The number of accepted pairs. In all stages but "fit", this and the values below are
+  // 0.
   int inliers = 0;
   // The root mean square point-to-plane distance of the accepted pairs, in the target's unit.
   double rms_plane = 0.0;

@@ -25,7 +25,8 @@ class NonrigidLoop {
                FitProblem* problem,
                DeformationState* state,
                FitResult* result)
-      : source_(*fit.source),
+      : fit_(fit),
+        source_(*fit.source),
         target_(fit.target),
         options_(*fit.options),
         clock_(*fit.clock),
@@ -47,9 +48,10 @@ class NonrigidLoop {
   void Match();
   SolveSummary Solve(int max_iterations);
   void MeasureInitialEnergy();
-  bool Stopped();
+  bool Stopped() { return MustEnd(fit_, result_); }
   void Report(double fraction) const;
 
+  const UnitFit& fit_;
   const Surface& source_;
   const Surface* target_;
   const FitOptions& options_;
@@ -67,21 +69,6 @@ class NonrigidLoop {
   double stiffness_ = 1.0;
   bool initial_energy_known_ = false;
 };
-
-// Returns true, with the reason in the result, if the fit must end now.
-bool NonrigidLoop::Stopped() {
-  if (options_.should_stop && options_.should_stop()) {
-    result_->status = SolveStatus::kInterrupted;
-    result_->message = "interrupted; best state so far";
-    return true;
-  }
-  if (clock_.Seconds() >= options_.time_limit_s) {
-    result_->status = SolveStatus::kTimeLimit;
-    result_->message = "time limit reached; best state so far";
-    return true;
-  }
-  return false;
-}
 
 void NonrigidLoop::Report(double fraction) const {
   if (!options_.on_progress) return;
@@ -187,6 +174,20 @@ void NonrigidLoop::Run() {
 }
 
 }  // namespace
+
+bool MustEnd(const UnitFit& fit, FitResult* result) {
+  if (fit.options->should_stop && fit.options->should_stop()) {
+    result->status = SolveStatus::kInterrupted;
+    result->message = "interrupted; best state so far";
+    return true;
+  }
+  if (fit.clock->Seconds() >= fit.options->time_limit_s) {
+    result->status = SolveStatus::kTimeLimit;
+    result->message = "time limit reached; best state so far";
+    return true;
+  }
+  return false;
+}
 
 std::vector<ResolutionPlan> PlanResolutions(const UnitFit& fit, int resolutions) {
   const FitOptions& options = *fit.options;

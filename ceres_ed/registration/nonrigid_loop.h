@@ -33,6 +33,10 @@ struct ResolutionPlan {
   double progress_end = 1.0;
 };
 
+// Returns true, with the status and the reason in `result`, if the fit must end now because its
+// time is up or because it was interrupted.
+bool MustEnd(const UnitFit& fit, FitResult* result);
+
 // At least this many points of a surface are matched, or all if it has fewer.
 inline constexpr int kMinCoarseSamples = 1000;
 

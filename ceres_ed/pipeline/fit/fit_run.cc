@@ -23,7 +23,7 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
     const std::string inliers = ", " + std::to_string(progress.inliers) + " inliers";
     observer->OnProgress(static_cast<int>(std::lround(kSteps * progress.fraction)),
                          kSteps,
-                         progress.stage + (progress.stage == "rigid" ? "" : inliers));
+                         progress.stage + (progress.stage == "fit" ? inliers : ""));
   };
   return Fit(input, options, registry);
 }

@@ -40,6 +40,7 @@ class Unfolder {
       : mesh_(*input.mesh),
         rest_(*input.rest),
         target_(input.target),
+        should_stop_(input.should_stop),
         finder_(mesh_, rest_),
         is_held_(rest_.size(), 0),
         index_(rest_.size(), -1),
@@ -78,6 +79,7 @@ class Unfolder {
   const Points& rest_;
   // Null if nothing attracts the vertices.
   const Surface* target_;
+  const std::function<bool()>& should_stop_;
   FoldFinder finder_;
   Points rest_normals_;
   double max_distance_ = 0.0;
@@ -259,8 +261,10 @@ UnfoldResult Unfolder::Run() {
   max_distance_ = kMaxDistance * edges / static_cast<double>(mesh_.edges.size());
   for (int round = 0; round < kRounds; ++round) {
     int change = 0;
-    for (const std::vector<int>& group : finder_.Groups(folded, kRings[0]))
+    for (const std::vector<int>& group : finder_.Groups(folded, kRings[0])) {
+      if (should_stop_ && should_stop_()) break;
       change += UnfoldGroup(group);
+    }
     result.after += change;
     if (change == 0 || result.after == 0) break;
     folded = finder_.FindAll(points_);

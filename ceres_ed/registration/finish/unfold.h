@@ -5,6 +5,7 @@
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/geometry/welded_mesh.h>
 
+#include <functional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,8 @@ struct UnfoldInput {
   std::vector<int> held;
   // The surface to which the points have been fitted; may be null.
   const Surface* target = nullptr;
+  // Called often; if it returns true, the remaining folds stay.
+  std::function<bool()> should_stop;
 };
 
 // The number of folded faces before and after (by the rules of FoldFinder).

@@ -54,7 +54,16 @@ class Finisher {
   double Smoothing(const FinishMatcher& matcher) const;
   void PrepareSmoothness();
   // Adds the weights of `pairs` to the matrix and factorises it.
-  void Factorize(const std::vector<FinishPair>& pairs);
+  // Returns false if this was stopped.
+  bool Factorize(const std::vector<FinishPair>& pairs);
+  // Returns whether the finish was stopped, now or before.
+  bool Stopped() {
+    stopped_ = stopped_ || (input_.should_stop && input_.should_stop());
+    return stopped_;
+  }
+  void Report(int round, double part) const {
+    if (input_.on_progress) input_.on_progress((round + part) / options_.rounds);
+  }
   // Returns half the gradient of the objective.
   Eigen::MatrixXd Gradient(const std::vector<FinishPair>& pairs) const;
   void Step(const std::vector<FinishPair>& pairs);
@@ -72,6 +81,7 @@ class Finisher {
   SparseCholesky::Matrix matrix_;
   std::unique_ptr<SparseCholesky> factor_;
   double epsilon_ = 0.0;
+  bool stopped_ = false;
   FinishResult result_;
 };
 
@@ -99,10 +109,11 @@ void Finisher::PrepareSmoothness() {
   smoothness_ = SquaredLaplacian(mesh_);
   smoothness_ *= lambda;
   matrix_ = smoothness_;
-  factor_ = std::make_unique<SparseCholesky>(matrix_);
+  if (Stopped()) return;
+  factor_ = std::make_unique<SparseCholesky>(matrix_, [this] { return Stopped(); });
 }
 
-void Finisher::Factorize(const std::vector<FinishPair>& pairs) {
+bool Finisher::Factorize(const std::vector<FinishPair>& pairs) {
   Eigen::VectorXd weights = Eigen::VectorXd::Constant(mesh_.num_vertices(), epsilon_);
   // For a blend b, |sum_i b_i x_i|^2 <= sum_i b_i |x_i|^2; the diagonal matrix therefore majorises.
   for (const FinishPair& pair : pairs) {
@@ -119,7 +130,9 @@ void Finisher::Factorize(const std::vector<FinishPair>& pairs) {
     const int diagonal = matrix_.outerIndexPtr()[v];
     matrix_.valuePtr()[diagonal] = smoothness_.valuePtr()[diagonal] + weights[v];
   }
-  CHECK(factor_->Factorize(matrix_)) << "a sum of squares and a positive diagonal";
+  if (factor_->Factorize(matrix_, [this] { return Stopped(); })) return true;
+  CHECK(stopped_) << "a sum of squares and a positive diagonal";
+  return false;
 }
 
 Eigen::MatrixXd Finisher::Gradient(const std::vector<FinishPair>& pairs) const {
@@ -175,10 +188,18 @@ FinishResult Finisher::Run() {
     if (round == 0) {
       result_.smoothing = Smoothing(matcher);
       if (pairs.empty() || result_.smoothing > options_.max_smoothing) return std::move(result_);
+      if (Stopped()) return std::move(result_);
       PrepareSmoothness();
     }
-    Factorize(pairs);
-    for (int step = 0; step < options_.steps; ++step) Step(pairs);
+    Report(round, 0.3);
+    if (Stopped() || !Factorize(pairs)) return std::move(result_);
+    Report(round, 0.6);
+    for (int step = 0; step < options_.steps; ++step) {
+      if (Stopped()) return std::move(result_);
+      Step(pairs);
+    }
+    Report(round, 1.0);
+    if (Stopped()) return std::move(result_);
     if (round + 1 == options_.rounds) Conclude(pairs);
   }
   for (std::size_t p = 0; p < result_.points.size(); ++p) {

@@ -6,6 +6,7 @@
 #include <ceres_ed/registration/fit_options.h>
 #include <ceres_ed/registration/matching.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,10 @@ struct FinishInput {
   std::vector<Correspondence> landmarks;
   std::vector<Correspondence> fixed;
   MatchingOptions matching;
+  // Called often; if it returns true, nothing is moved.
+  std::function<bool()> should_stop;
+  // Called with the part of the finish that is done, in [0, 1].
+  std::function<void(double)> on_progress;
 };
 
 // The result of a finish.
@@ -38,7 +43,8 @@ struct FinishResult {
   // One point for each point of the source. Points at the same position move by the same
   // displacement.
   std::vector<Eigen::Vector3d> points;
-  // False if the noise is too large for a finish; `points` are then those of the input.
+  // False if the noise is too large for a finish, or if it was stopped; `points` are then those of
+  // the input.
   bool moved = false;
   // The smoothing that was used.
   double smoothing = 0.0;
