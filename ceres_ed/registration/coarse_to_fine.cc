@@ -17,6 +17,14 @@ namespace {
 // and the share below which nothing counts as unmatched.
 constexpr double kUnmatchedWidth = 0.02;
 constexpr double kNothingUnmatched = 0.01;
+// The same distance for the check against the rigid placement, which compares two states of which
+// both may be near the target: it is smaller, but not below a multiple of the noise.
+constexpr double kCheckWidth = 0.005;
+constexpr double kCheckWidthPerNoise = 3.0;
+// A deformation with energies of the user may leave this times as much unexplained as the rigid
+// placement, and this share more.
+constexpr double kOwnEnergyFactor = 1.1;
+constexpr double kOwnEnergyMargin = 0.02;
 // The number of source samples; it is large enough that each target sample has a source sample near
 // it.
 constexpr int kUnmatchedSamples = 8000;
@@ -103,14 +111,22 @@ Status CoarseToFine::RunResolution(int resolution,
   return Status::Ok();
 }
 
-Unmatched CoarseToFine::MeasureUnmatched(int resolution, const DeformationState& state) const {
+Unmatched CoarseToFine::MeasureUnmatched(int resolution,
+                                         const DeformationState& state,
+                                         double width) const {
   MovingSamples moving(*fit_.source, graphs_[resolution], kUnmatchedSamples);
   moving.Move(state, fit_.options->num_threads);
   return FindUnmatched(moving.Moved(),
                        *fit_.target,
                        SamplePoints(*fit_.target, kMinCoarseSamples),
-                       kUnmatchedWidth,
+                       width,
                        fit_.options->matching);
+}
+
+double CoarseToFine::MeasureUnexplained(const DeformationState& state) const {
+  const double width = std::max(kCheckWidth, kCheckWidthPerNoise * fit_.noise);
+  const MovingSamples samples(*fit_.source, graphs_[graph_], kUnmatchedSamples);
+  return MeasureUnmatched(graph_, state, width).Total() + samples.LostArea(state);
 }
 
 Status CoarseToFine::Run(FitResult* result) {
@@ -148,8 +164,9 @@ Status CoarseToFine::Run(FitResult* result) {
       if (EndedEarly(*result)) break;
     }
     const int reached = std::min(resolution, last - 1);
-    const Unmatched unmatched =
-        fit_.target != nullptr ? MeasureUnmatched(reached, state) : Unmatched{0.0, 0.0};
+    const Unmatched unmatched = fit_.target != nullptr
+                                    ? MeasureUnmatched(reached, state, kUnmatchedWidth)
+                                    : Unmatched{0.0, 0.0};
     if (unmatched.Mean() < best_unmatched) {
       best_unmatched = unmatched.Mean();
       loss_width = ways[i].loss_width;
@@ -176,11 +193,12 @@ Status CoarseToFine::Run(FitResult* result) {
 void CoarseToFine::KeepTheBetter(FitResult* result) {
   if (fit_.target == nullptr || !fit_.landmarks.empty() || !fit_.fixed.empty()) return;
   const DeformationState rest(graphs_[graph_].graph.num_nodes());
-  const double rigid = MeasureUnmatched(graph_, rest).Mean();
-  const double fitted = MeasureUnmatched(graph_, state_).Mean();
-  if (fitted <= rigid) return;
+  const double rigid = MeasureUnexplained(rest);
+  const double fitted = MeasureUnexplained(state_);
+  const bool has_own_energies = !fit_.options->extra_energies.empty();
+  if (fitted <= (has_own_energies ? kOwnEnergyFactor * rigid + kOwnEnergyMargin : rigid)) return;
   std::ostringstream message;
-  message << "the deformation leaves more of the surfaces unmatched (" << 100.0 * fitted
+  message << "the deformation leaves more of the surfaces unexplained (" << 100.0 * fitted
           << " %) than the rigid placement (" << 100.0 * rigid
           << " %): the result is the rigid one; are these two states of one body?";
   result->warnings.push_back(message.str());

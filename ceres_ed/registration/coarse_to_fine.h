@@ -40,10 +40,15 @@ class CoarseToFine {
                        DeformationState* state,
                        FitResult* result) const;
   // Returns to the rigid placement, with a warning, if the deformation explains less of the
-  // surfaces.
+  // surfaces. With energies of the user, which may ask for something else, it must explain clearly
+  // less.
   void KeepTheBetter(FitResult* result);
-  // Returns how much of both surfaces is unmatched in `state` on the graph of `resolution`.
-  Unmatched MeasureUnmatched(int resolution, const DeformationState& state) const;
+  // Returns how much of both surfaces is unmatched in `state` on the graph of `resolution`; a point
+  // at the distance `width` counts half.
+  Unmatched MeasureUnmatched(int resolution, const DeformationState& state, double width) const;
+  // Returns how much of the surfaces `state` on the last graph leaves unexplained: what is
+  // unmatched, and the area that is squeezed away to match the rest.
+  double MeasureUnexplained(const DeformationState& state) const;
 
   UnitFit fit_;
   // The graphs from coarse to fine.

@@ -8,6 +8,7 @@
 #include <ceres_ed/registration/fit_options.h>
 #include <ceres_ed/registration/fit_types.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -64,6 +65,9 @@ struct Unmatched {
   double target = 1.0;
 
   double Mean() const { return 0.5 * (source + target); }
+  // Returns a mean in which the surface that is explained better has most of the weight. What a
+  // partial target does not show cannot be explained, and is no evidence for or against a warp.
+  double Total() const { return 0.8 * std::min(source, target) + 0.2 * std::max(source, target); }
 };
 
 // Returns the mean over the samples of each surface of d^2 / (d^2 + width^2), which is 1 for a

@@ -3,6 +3,10 @@
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/util/parallel.h>
 
+#include <algorithm>
+
+#include <Eigen/Geometry>
+
 namespace ceres_ed {
 
 MovingSamples::MovingSamples(const Surface& source, const BuiltGraph& graph, int count)
@@ -30,6 +34,22 @@ double MovingSamples::Move(const DeformationState& state, int num_threads) {
   double sum = 0.0;
   for (const double motion : motions) sum += motion;
   return count > 0 ? sum / count : 0.0;
+}
+
+double MovingSamples::LostArea(const DeformationState& state) const {
+  double lost = 0.0;
+  double total = 0.0;
+  for (const int point : samples_) {
+    const Eigen::Matrix3d A = WarpGradient(state, graph_->skinning[point]);
+    // The cofactors of A take area vectors at rest to those of the warped surface.
+    Eigen::Matrix3d cofactors;
+    cofactors << A.col(1).cross(A.col(2)), A.col(2).cross(A.col(0)), A.col(0).cross(A.col(1));
+    const double ratio = (cofactors * source_->cloud().normals[point]).norm();
+    const double area = source_->relative_areas()[point];
+    lost += area * std::max(0.0, 1.0 - 2.0 * ratio);
+    total += area;
+  }
+  return total > 0.0 ? lost / total : 0.0;
 }
 
 }  // namespace ceres_ed

@@ -23,6 +23,12 @@ class MovingSamples {
   // call: from rest), in the unit of the surface; 0 if there are no samples.
   double Move(const DeformationState& state, int num_threads);
 
+  // Returns the share of the surface's area that `state` squeezes away, in [0, 1]: the mean over
+  // the samples, weighted by their areas, of the loss max(0, 1 - 2 r), where r is the ratio of a
+  // patch's area to that at rest. A bend changes areas by far less than half; a part that is drawn
+  // onto a surface that does not show it collapses.
+  double LostArea(const DeformationState& state) const;
+
   // Returns the samples at their present positions; the result refers to this object.
   MovedSource Moved() const { return {source_, &samples_, &points_, &normals_}; }
 

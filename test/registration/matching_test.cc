@@ -257,5 +257,10 @@ TEST(SamplePoints, LeavesOutIsolatedVerticesAndKeepsToTheCount) {
   for (const int point : ten) EXPECT_NE(point, 36);
 }
 
+TEST(Unmatched, TotalWeighsTheSurfaceThatIsExplainedBetter) {
+  EXPECT_DOUBLE_EQ((Unmatched{0.9, 0.1}).Total(), 0.26);
+  EXPECT_DOUBLE_EQ((Unmatched{0.1, 0.9}).Total(), 0.26);
+}
+
 }  // namespace
 }  // namespace ceres_ed
