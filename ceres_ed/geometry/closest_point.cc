@@ -260,6 +260,7 @@ struct SurfaceIndex::Impl {
   double room = 0.0;
   // Used only if the cloud has no triangles.
   std::optional<KdTree> point_tree;
+  std::vector<char> is_border_point;
 };
 
 SurfaceIndex::SurfaceIndex(const PointCloud& cloud, const SurfaceTopology& topology)
@@ -267,6 +268,7 @@ SurfaceIndex::SurfaceIndex(const PointCloud& cloud, const SurfaceTopology& topol
   impl_->CollectTriangles(topology);
   if (impl_->items.empty()) {
     impl_->point_tree.emplace(cloud.points);
+    impl_->is_border_point = topology.is_border;
     return;
   }
   impl_->Build();
@@ -289,6 +291,7 @@ SurfaceHit SurfaceIndex::Closest(const Eigen::Vector3d& query,
   hit.position = impl_->cloud.points[nearest.index];
   hit.squared_distance = nearest.squared_distance;
   hit.nearest_vertex = nearest.index;
+  hit.on_border = impl_->is_border_point[nearest.index] != 0;
   return hit;
 }
 

@@ -32,8 +32,8 @@ struct SurfaceHit {
   // The corner of `triangle` that is nearest to `position`, or the bare point; -1 when nothing was
   // found.
   int nearest_vertex = -1;
-  // True if the hit lies on a border edge or at a border vertex of a mesh. The query may then
-  // belong to a part of the surface that is missing.
+  // True if the hit lies on a border edge or at a border vertex of a mesh, or is a border point.
+  // The query may then belong to a part of the surface that is missing.
   bool on_border = false;
 
   bool found() const { return nearest_vertex >= 0; }

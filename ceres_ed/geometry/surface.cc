@@ -1,6 +1,7 @@
 #include "ceres_ed/geometry/surface.h"
 
 #include <ceres_ed/geometry/normals.h>
+#include <ceres_ed/geometry/point_borders.h>
 #include <ceres_ed/geometry/triangle_area.h>
 
 #include <algorithm>
@@ -52,7 +53,11 @@ Surface::Surface(PointCloud cloud, int num_threads)
     : cloud_(WithNormals(std::move(cloud), num_threads)),
       topology_(BuildTopology(cloud_)),
       relative_areas_(RelativeAreas(cloud_)),
-      radii_(Radii(cloud_)) {}
+      radii_(Radii(cloud_)) {
+  if (!cloud_.HasTriangles()) {
+    topology_.is_border = FindBorderPoints(cloud_.points, cloud_.normals, num_threads);
+  }
+}
 
 const SurfaceIndex& Surface::index() const {
   std::call_once(index_built_, [this] { index_.emplace(cloud_, topology_); });

@@ -26,6 +26,7 @@ class Surface {
   Surface& operator=(const Surface&) = delete;
 
   const PointCloud& cloud() const { return cloud_; }
+  // For bare points, is_border has the points of FindBorderPoints().
   const SurfaceTopology& topology() const { return topology_; }
   // The index for the closest point of the surface, which may lie between its points. It is built
   // at the first call.

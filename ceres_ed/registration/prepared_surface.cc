@@ -78,6 +78,10 @@ void ReconcilePoints(const std::string& name,
 PreparedSurface PrepareSurface(PointCloud cloud, const std::string& name, int num_threads) {
   PreparedSurface prepared;
   const bool has_normals = cloud.HasNormals();
+  if (!has_normals && !cloud.HasTriangles()) {
+    cloud.normals = EstimateNormals(cloud.points, kNormalNeighbors, num_threads);
+    cloud.normals_oriented = ShareOfContradictingNormals(cloud) <= kMaxContradicting;
+  }
   if (has_normals && !cloud.HasTriangles() && cloud.normals_oriented) {
     ReconcilePoints(name, num_threads, &cloud, &prepared.notes);
   }
