@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -262,6 +263,34 @@ int JoinPieces(DeformationGraph* graph, int edges_per_joint) {
       graph->AddEdge({c.piece_node, c.joined_node, 1.0});
     }
   }
+}
+
+int CarryPieces(const std::vector<int>& piece,
+                const std::vector<char>& is_carried,
+                int edges_per_node,
+                double reach,
+                DeformationGraph* graph) {
+  CHECK_EQ(static_cast<int>(piece.size()), graph->num_nodes());
+  std::set<std::pair<int, int>> linked;
+  for (const GraphEdge& edge : graph->edges()) linked.insert(std::minmax(edge.from, edge.to));
+  const std::size_t before = linked.size();
+  std::vector<std::pair<double, int>> others;
+  for (int j = 0; j < graph->num_nodes(); ++j) {
+    if (is_carried[piece[j]] == 0) continue;
+    others.clear();
+    for (int k = 0; k < graph->num_nodes(); ++k) {
+      const double distance = (graph->position(j) - graph->position(k)).norm();
+      if (piece[k] != piece[j] && distance <= reach) others.emplace_back(distance, k);
+    }
+    std::sort(others.begin(), others.end());
+    if (static_cast<int>(others.size()) > edges_per_node) others.resize(edges_per_node);
+    for (const auto& [distance, k] : others) {
+      if (!linked.insert(std::minmax(j, k)).second) continue;
+      graph->AddEdge({j, k, 1.0});
+      graph->AddEdge({k, j, 1.0});
+    }
+  }
+  return static_cast<int>(linked.size() - before);
 }
 
 }  // namespace ceres_ed

@@ -40,6 +40,17 @@ std::vector<int> ConnectedPieces(const DeformationGraph& graph);
 // enough nodes, since a piece could turn freely about a single edge.
 int JoinPieces(DeformationGraph* graph, int edges_per_joint);
 
+// Adds edges of weight 1 (in both directions) by which pieces of a surface carry the pieces between
+// them. `piece` has the piece of each node, and `is_carried` is non-zero for the pieces that are
+// carried. Each node of these gets edges to its `edges_per_node` nearest nodes (Euclidean) of other
+// pieces, as far as they are within `reach`, in the unit of the positions. Returns the number of
+// pairs of nodes that are linked.
+int CarryPieces(const std::vector<int>& piece,
+                const std::vector<char>& is_carried,
+                int edges_per_node,
+                double reach,
+                DeformationGraph* graph);
+
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_GRAPH_EDGES_H_

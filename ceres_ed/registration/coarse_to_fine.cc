@@ -1,5 +1,6 @@
 #include "ceres_ed/registration/coarse_to_fine.h"
 
+#include <ceres_ed/graph/edges.h>
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/registration/fit_uncertainty.h>
 #include <ceres_ed/registration/moving_samples.h>
@@ -25,6 +26,10 @@ constexpr double kCheckWidthPerNoise = 3.0;
 // placement, and this share more.
 constexpr double kOwnEnergyFactor = 1.1;
 constexpr double kOwnEnergyMargin = 0.02;
+// A node of a piece without landmarks follows this many nodes of other pieces within this many node
+// spacings.
+constexpr int kCarryingEdges = 12;
+constexpr double kCarryingReach = 1.5;
 // The number of source samples; it is large enough that each target sample has a source sample near
 // it.
 constexpr int kUnmatchedSamples = 8000;
@@ -63,6 +68,21 @@ StatusOr<BuiltGraph> GraphForNoTime(const Surface& source) {
   return BuildGraph(source.cloud(), source.topology(), options);
 }
 
+// Links the pieces of the source that have no landmark to the pieces near them: landmarks on some
+// pieces carry the pieces between them.
+void CarryPiecesWithoutLandmarks(const UnitFit& fit, BuiltGraph* built) {
+  const SurfaceTopology& topology = fit.source->topology();
+  if (fit.landmarks.empty() || built->binding.distance != DistanceRule::kSurface) return;
+  std::vector<char> is_carried(topology.num_components(), 1);
+  for (const auto* held : {&fit.landmarks, &fit.fixed}) {
+    for (const Correspondence& point : *held) is_carried[topology.component[point.point]] = 0;
+  }
+  std::vector<int> piece;
+  for (const int point : built->node_points) piece.push_back(topology.component[point]);
+  CarryPieces(
+      piece, is_carried, kCarryingEdges, kCarryingReach * built->node_spacing, &built->graph);
+}
+
 }  // namespace
 
 Status CoarseToFine::BuildGraphs(int resolutions, FitResult* result) {
@@ -84,6 +104,7 @@ Status CoarseToFine::BuildGraphs(int resolutions, FitResult* result) {
     if (coarse.ok()) graphs_.push_back(*std::move(coarse));
   }
   graphs_.push_back(*std::move(finest));
+  for (BuiltGraph& graph : graphs_) CarryPiecesWithoutLandmarks(fit_, &graph);
   result->times.graph = timer.Seconds();
   return Status::Ok();
 }

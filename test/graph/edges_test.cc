@@ -151,5 +151,25 @@ TEST(JoinPieces, JoinsAsManyAsThereAreAndLeavesOnePieceAlone) {
   EXPECT_EQ(JoinPieces(&none, 3), 0);
 }
 
+TEST(CarryPieces, LinksCarriedNodesToNearNodesOfOtherPieces) {
+  DeformationGraph graph;
+  // Three rows of nodes; the one in the middle is carried.
+  std::vector<int> piece;
+  for (int row = 0; row < 3; ++row) {
+    for (int j = 0; j < 5; ++j) {
+      graph.AddNode({1.0 * j, 0.1 * row, 0.0});
+      piece.push_back(row);
+    }
+  }
+  EXPECT_EQ(CarryPieces(piece, {0, 1, 0}, 2, 0.5, &graph), 10);
+  EXPECT_EQ(graph.edges().size(), 20u);
+  for (const GraphEdge& edge : graph.edges()) {
+    EXPECT_EQ(edge.from % 5, edge.to % 5);
+    EXPECT_EQ(std::abs(piece[edge.from] - piece[edge.to]), 1);
+  }
+  EXPECT_EQ(CarryPieces(piece, {0, 1, 0}, 2, 0.5, &graph), 0) << "they are linked already";
+  EXPECT_EQ(CarryPieces(piece, {1, 1, 1}, 2, 0.01, &graph), 0) << "nothing is within reach";
+}
+
 }  // namespace
 }  // namespace ceres_ed
