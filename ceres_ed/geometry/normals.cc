@@ -120,12 +120,14 @@ std::vector<std::vector<int>> SpanningForest(const std::vector<Eigen::Vector3d>&
   return links;
 }
 
-// Makes the signs of the normals agree in each tree of the forest, and points them outward.
-void OrientNormals(const std::vector<Eigen::Vector3d>& points,
-                   const std::vector<std::vector<int>>& forest,
-                   std::vector<Eigen::Vector3d>* normals) {
+// Makes the signs of the normals agree in each tree of the forest, and points them outward. Returns
+// the size of the largest tree.
+int OrientNormals(const std::vector<Eigen::Vector3d>& points,
+                  const std::vector<std::vector<int>>& forest,
+                  std::vector<Eigen::Vector3d>* normals) {
   const int num_points = static_cast<int>(points.size());
   std::vector<char> visited(num_points, 0);
+  std::size_t largest = 0;
   for (int start = 0; start < num_points; ++start) {
     if (visited[start]) continue;
     // Walk through a tree of the forest, and turn each normal to the side of the one before it.
@@ -142,12 +144,14 @@ void OrientNormals(const std::vector<Eigen::Vector3d>& points,
         part.push_back(q);
       }
     }
+    largest = std::max(largest, part.size());
     centroid /= static_cast<double>(part.size());
     double outward = 0.0;
     for (const int p : part) outward += (points[p] - centroid).dot((*normals)[p]);
     if (outward >= 0.0) continue;
     for (const int p : part) (*normals)[p] = -(*normals)[p];
   }
+  return static_cast<int>(largest);
 }
 
 }  // namespace
@@ -181,7 +185,8 @@ std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud) {
 
 std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>& points,
                                              int neighbors,
-                                             int num_threads) {
+                                             int num_threads,
+                                             int* largest_part) {
   CHECK_GE(neighbors, 3);
   // Fit a plane to the neighbours of each point.
   const Neighborhoods around(points, neighbors, num_threads);
@@ -191,7 +196,8 @@ std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>&
       normals[p] = PlaneNormal(points, around.Of(p), around.counts[p]);
     }
   });
-  OrientNormals(points, SpanningForest(normals, around), &normals);
+  const int largest = OrientNormals(points, SpanningForest(normals, around), &normals);
+  if (largest_part != nullptr) *largest_part = largest;
   return normals;
 }
 

@@ -24,10 +24,12 @@ std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud);
 // The signs are a guess. They agree along a minimum spanning tree of the neighbour graph, whose
 // edges have the weight 1 - |n_i . n_j| (Hoppe et al. 1992). Each connected part points outward by
 // the sign of the sum of (p - c) . n over its points, where c is their centroid. This is right for
-// closed shapes; on an open sheet the normals point to the convex side.
+// closed shapes; on an open sheet the normals point to the convex side. `largest_part`, if it is
+// not null, receives the number of points of the largest connected part.
 std::vector<Eigen::Vector3d> EstimateNormals(const std::vector<Eigen::Vector3d>& points,
                                              int neighbors = kNormalNeighbors,
-                                             int num_threads = 1);
+                                             int num_threads = 1,
+                                             int* largest_part = nullptr);
 
 // Chooses the signs of `normals`, one unit normal for each point, as EstimateNormals() does. Their
 // directions are kept.

@@ -18,6 +18,8 @@ namespace {
 // and the share below which nothing counts as unmatched.
 constexpr double kUnmatchedWidth = 0.02;
 constexpr double kNothingUnmatched = 0.01;
+// The weight of the target's unmatched share when two ways are compared; the rest is the source's.
+constexpr double kTargetShare = 0.8;
 // The same distance for the check against the rigid placement, which compares two states of which
 // both may be near the target: it is smaller, but not below a multiple of the noise.
 constexpr double kCheckWidth = 0.005;
@@ -188,8 +190,13 @@ Status CoarseToFine::Run(FitResult* result) {
     const Unmatched unmatched = fit_.target != nullptr
                                     ? MeasureUnmatched(reached, state, kUnmatchedWidth)
                                     : Unmatched{0.0, 0.0};
-    if (unmatched.Mean() < best_unmatched) {
-      best_unmatched = unmatched.Mean();
+    // A way that squeezes the source onto the target has matched it at no gain. The target is all
+    // that is known, whereas much of the source may be hidden from it.
+    const double left =
+        kTargetShare * unmatched.target + (1.0 - kTargetShare) * unmatched.source +
+        MovingSamples(*fit_.source, graphs_[reached], kUnmatchedSamples).LostArea(state);
+    if (left < best_unmatched) {
+      best_unmatched = left;
       loss_width = ways[i].loss_width;
       start = reached;
       state_ = std::move(state);

@@ -14,6 +14,9 @@ namespace {
 // noise cause some contradictions.
 constexpr double kMaxAgainstTriangles = 0.02;
 constexpr double kMaxContradicting = 0.01;
+// The smallest share of the points that one connected part must have for the signs of estimated
+// normals to be believed.
+constexpr double kLeastPart = 0.9;
 
 // Gives points without a normal the normals of `computed`.
 void FillIn(const std::vector<Eigen::Vector3d>& computed, std::vector<Eigen::Vector3d>* normals) {
@@ -79,8 +82,11 @@ PreparedSurface PrepareSurface(PointCloud cloud, const std::string& name, int nu
   PreparedSurface prepared;
   const bool has_normals = cloud.HasNormals();
   if (!has_normals && !cloud.HasTriangles()) {
-    cloud.normals = EstimateNormals(cloud.points, kNormalNeighbors, num_threads);
-    cloud.normals_oriented = ShareOfContradictingNormals(cloud) <= kMaxContradicting;
+    // The sides of separate parts are guesses that need not agree.
+    int largest = 0;
+    cloud.normals = EstimateNormals(cloud.points, kNormalNeighbors, num_threads, &largest);
+    cloud.normals_oriented = largest >= kLeastPart * static_cast<double>(cloud.size()) &&
+                             ShareOfContradictingNormals(cloud) <= kMaxContradicting;
   }
   if (has_normals && !cloud.HasTriangles() && cloud.normals_oriented) {
     ReconcilePoints(name, num_threads, &cloud, &prepared.notes);
