@@ -43,9 +43,7 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           "Write for each frame in masks/ which pixels are tissue (255), and where a tool or "
           "nothing was seen (0).")
           .File(),
-      Row(&S::checkpoint_every,
-          "checkpoint_every",
-          "Save state, map and report every n frames.")
+      Row(&S::checkpoint_every, "checkpoint_every", "Save state, map and report every n frames.")
           .In(AtLeast(0))
           .Special(0, "none")
           .OnResume(ResumeRule::kFree)

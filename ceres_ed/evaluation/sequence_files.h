@@ -8,9 +8,9 @@
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/io/results/frames_csv.h>
+#include <ceres_ed/io/sequence/layouts/stir_truth.h>
 #include <ceres_ed/io/sequence/picture_tracks.h>
 #include <ceres_ed/io/sequence/scene_truth.h>
-#include <ceres_ed/io/sequence/layouts/stir_truth.h>
 #include <ceres_ed/stereo/depth_source.h>
 #include <ceres_ed/util/status.h>
 

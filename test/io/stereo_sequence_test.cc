@@ -1,5 +1,5 @@
-#include "ceres_ed/io/sequence/picture_reader.h"
 #include "ceres_ed/io/sequence/layouts/stereo_file.h"
+#include "ceres_ed/io/sequence/picture_reader.h"
 #include "sequence_test_util.h"
 
 #include <gmock/gmock.h>

@@ -1,9 +1,9 @@
 #include "ceres_ed/io/sequence/sequence_format.h"
 
 #include <ceres_ed/io/camera_io.h>
+#include <ceres_ed/io/sequence/layouts/stereo_file.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_listing.h>
-#include <ceres_ed/io/sequence/layouts/stereo_file.h>
 
 namespace ceres_ed {
 

@@ -1,8 +1,8 @@
 // One or two videos beside stereo.txt, or beside a calibration that OpenCV has written.
 #include <ceres_ed/io/sequence/layouts/layout_files.h>
+#include <ceres_ed/io/sequence/layouts/stereo_file.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_format.h>
-#include <ceres_ed/io/sequence/layouts/stereo_file.h>
 
 #include <cstddef>
 

@@ -1,8 +1,8 @@
 // STIR: left*/seqNN/frames/<a>ms-<b>ms.mp4, the same in right*, and calib.json above them.
 #include <ceres_ed/io/sequence/layouts/layout_files.h>
+#include <ceres_ed/io/sequence/layouts/stir_clip.h>
 #include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/sequence_format.h>
-#include <ceres_ed/io/sequence/layouts/stir_clip.h>
 
 #include <algorithm>
 #include <cmath>

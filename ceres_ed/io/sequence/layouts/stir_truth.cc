@@ -1,8 +1,8 @@
 #include "ceres_ed/io/sequence/layouts/stir_truth.h"
 
 #include <ceres_ed/io/image_io.h>
-#include <ceres_ed/io/sequence/picture_files.h>
 #include <ceres_ed/io/sequence/layouts/stir_clip.h>
+#include <ceres_ed/io/sequence/picture_files.h>
 
 #include <algorithm>
 #include <utility>
