@@ -8,6 +8,7 @@
 #include <ceres_ed/registration/denoise.h>
 #include <ceres_ed/registration/finish/unfold.h>
 #include <ceres_ed/registration/finish/vertex_finish.h>
+#include <ceres_ed/registration/fit_progress.h>
 #include <ceres_ed/registration/fit_validation.h>
 #include <ceres_ed/registration/placement.h>
 #include <ceres_ed/registration/prepared_surface.h>
@@ -93,8 +94,8 @@ class Fitter {
   void Place();
   // Stores the surfaces in the unit frame, with a denoised target.
   void TakeToUnitFrame(const PointCloud& source, const PointCloud* target);
-  void Report(const char* stage, double fraction) const {
-    if (options_.on_progress) options_.on_progress({stage, fraction, 0, 0.0, 0.0});
+  void Report(const char* stage, double part) const {
+    if (options_.on_progress) options_.on_progress({stage, PartOfFit(stage, part), 0, 0.0, 0.0});
   }
   bool MustStop() const {
     return (options_.should_stop && options_.should_stop()) ||

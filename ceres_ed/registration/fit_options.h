@@ -157,7 +157,7 @@ struct FitProgress {
   // "rigid" once before the source is placed, "graph" once before the graphs are built, "fit" after
   // each round of matching and solving, "finish" several times, and "unfold" once.
   std::string stage;
-  // The part of the stage that is done, in [0, 1].
+  // The part of the whole fit that is done, in [0, 1]; it never decreases.
   double fraction = 0.0;
   // The number of accepted pairs. In all stages but "fit", this and the values below are
   // 0.

@@ -1,5 +1,6 @@
 #include "ceres_ed/registration/nonrigid_loop.h"
 
+#include <ceres_ed/registration/fit_progress.h>
 #include <ceres_ed/registration/moving_samples.h>
 
 #include <algorithm>
@@ -49,7 +50,7 @@ class NonrigidLoop {
   SolveSummary Solve(int max_iterations);
   void MeasureInitialEnergy();
   bool Stopped() { return MustEnd(fit_, result_); }
-  void Report(double fraction) const;
+  void Report(double part) const;
 
   const UnitFit& fit_;
   const Surface& source_;
@@ -70,10 +71,13 @@ class NonrigidLoop {
   bool initial_energy_known_ = false;
 };
 
-void NonrigidLoop::Report(double fraction) const {
+void NonrigidLoop::Report(double part) const {
   if (!options_.on_progress) return;
-  options_.on_progress(
-      {"fit", fraction, result_->matches.inliers, result_->matches.rms_plane, energy_});
+  options_.on_progress({"fit",
+                        PartOfFit("fit", part),
+                        result_->matches.inliers,
+                        result_->matches.rms_plane,
+                        energy_});
 }
 
 void NonrigidLoop::Match() {

@@ -31,6 +31,22 @@ TEST(FitProgress, GoesThroughTheStagesInTheirOrder) {
   EXPECT_EQ(stages, (std::vector<std::string>{"rigid", "graph", "fit", "finish", "unfold"}));
 }
 
+TEST(FitProgress, NeverGoesBack) {
+  FitInput input;
+  input.source = MakeSyntheticShape(SyntheticShape::kKidney, 500, 1.0);
+  input.target = MakeSyntheticShape(SyntheticShape::kKidney, 600, 1.0);
+  FitOptions options;
+  std::vector<double> fractions;
+  options.on_progress = [&fractions](const FitProgress& progress) {
+    fractions.push_back(progress.fraction);
+  };
+  ASSERT_TRUE(Fit(input, options, BuiltinEnergies()).ok());
+  EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
+  EXPECT_GE(fractions.front(), 0.0);
+  EXPECT_GT(fractions.back(), 0.9);
+  EXPECT_LE(fractions.back(), 1.0);
+}
+
 TEST(FitProgress, HasNoRigidStageWhereTheSourceIsNotPlaced) {
   FitOptions options;
   options.rigid_first = false;
