@@ -44,6 +44,17 @@ std::vector<Eigen::Vector3d> NodePositions(const DeformableSlam& slam) {
   return positions;
 }
 
+// Returns the picture rotated by half a turn, which no prediction can reach.
+DepthImage TurnedByHalf(DepthView depth) {
+  DepthImage turned(depth.width(), depth.height());
+  for (int v = 0; v < turned.height(); ++v) {
+    for (int u = 0; u < turned.width(); ++u) {
+      turned(u, v) = depth(turned.width() - 1 - u, turned.height() - 1 - v);
+    }
+  }
+  return turned;
+}
+
 double MiddleDepth(const ObservedSurface& surface) {
   const SurfacePatch& patch = surface.patch(surface.width() / 2, surface.height() / 2);
   return patch.point.z();
@@ -85,14 +96,8 @@ TEST(Relocalization, FindsTheCameraAgain) {
 
 TEST(Relocalization, TracksOnAfterAJump) {
   const auto slam = MappedKidney();
-  // The picture is rotated by half a turn, which no prediction can reach.
   const SlamFrame frame = KidneySequence().Frame(3);
-  DepthImage turned(frame.depth.width(), frame.depth.height());
-  for (int v = 0; v < turned.height(); ++v) {
-    for (int u = 0; u < turned.width(); ++u) {
-      turned(u, v) = frame.depth(turned.width() - 1 - u, turned.height() - 1 - v);
-    }
-  }
+  const DepthImage turned = TurnedByHalf(frame.depth);
   SlamFrame jumped = frame;
   jumped.depth = &turned;
   jumped.color = nullptr;
@@ -108,12 +113,7 @@ TEST(Relocalization, TracksOnAfterAJump) {
 TEST(Relocalization, LeavesTheMapAloneUntilThePoseHasProvedItself) {
   const auto slam = MappedKidney();
   const SlamFrame frame = KidneySequence().Frame(3);
-  DepthImage turned(frame.depth.width(), frame.depth.height());
-  for (int v = 0; v < turned.height(); ++v) {
-    for (int u = 0; u < turned.width(); ++u) {
-      turned(u, v) = frame.depth(turned.width() - 1 - u, turned.height() - 1 - v);
-    }
-  }
+  const DepthImage turned = TurnedByHalf(frame.depth);
   SlamFrame jumped = frame;
   jumped.depth = &turned;
   jumped.color = nullptr;
