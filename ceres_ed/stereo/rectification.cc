@@ -116,13 +116,8 @@ cv::Mat Wrap(const MaskImage& image) {
   return {image.height(), image.width(), CV_8UC1, const_cast<std::uint8_t*>(image.pixels().data())};
 }
 
-}  // namespace
-
-Rectification::Rectification() = default;
-Rectification::~Rectification() = default;
-
-StatusOr<std::unique_ptr<Rectification>> Rectification::Create(const StereoRig& rig,
-                                                               bool is_rectified) {
+// Returns an error unless a rig can be that of pictures which are rectified, or are to be.
+Status CheckRig(const StereoRig& rig, bool is_rectified) {
   Status status = CheckCamera("left", rig.left);
   if (status.ok()) status = CheckCamera("right", rig.right);
   if (status.ok()) status = CheckSides(rig.right_from_left);
@@ -130,93 +125,117 @@ StatusOr<std::unique_ptr<Rectification>> Rectification::Create(const StereoRig& 
   if (!status.ok()) return status;
   const PinholeCamera& left = rig.left.pinhole;
   const PinholeCamera& right = rig.right.pinhole;
-  if (left.width != right.width || left.height != right.height) {
-    return Status::Error("the left camera has " + std::to_string(left.width) + " x " +
-                         std::to_string(left.height) + " pixels and the right one " +
-                         std::to_string(right.width) + " x " + std::to_string(right.height) +
-                         ", expected the same size");
-  }
-  std::unique_ptr<Rectification> result(new Rectification);
-  RectifiedRig& rectified = result->rig_;
-  if (is_rectified) {
-    rectified.camera = left;
-    rectified.baseline = -rig.right_from_left.translation.x();
-    rectified.offset = left.cx - right.cx;
-    return StatusOr<std::unique_ptr<Rectification>>(std::move(result));
-  }
-  // Both cameras are turned so that they look along one direction, at right angles to the baseline.
-  const cv::Size size(left.width, left.height);
+  if (left.width == right.width && left.height == right.height) return Status::Ok();
+  return Status::Error("the left camera has " + std::to_string(left.width) + " x " +
+                       std::to_string(left.height) + " pixels and the right one " +
+                       std::to_string(right.width) + " x " + std::to_string(right.height) +
+                       ", expected the same size");
+}
+
+// What rectification makes of a camera.
+struct RectifiedCamera {
+  // From the coordinates of the given camera to those of the rectified one, 3 x 3.
+  cv::Mat turn;
+  // The rectified projection, 3 x 4.
+  cv::Mat projection;
+};
+
+// Turns both cameras so that they look along one direction, at right angles to the baseline.
+// Throws what OpenCV throws.
+void TurnCameras(const StereoRig& rig, RectifiedCamera* left, RectifiedCamera* right) {
   const Eigen::Matrix3d r = rig.right_from_left.rotation.toRotationMatrix();
   const Eigen::Vector3d& t = rig.right_from_left.translation;
-  const cv::Mat rotation = (cv::Mat_<double>(3, 3) << r(0, 0),
-                            r(0, 1),
-                            r(0, 2),
-                            r(1, 0),
-                            r(1, 1),
-                            r(1, 2),
-                            r(2, 0),
-                            r(2, 1),
-                            r(2, 2));
+  cv::Mat rotation(3, 3, CV_64F);
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) rotation.at<double>(i, j) = r(i, j);
+  }
   const cv::Mat translation = (cv::Mat_<double>(3, 1) << t.x(), t.y(), t.z());
-  const cv::Mat left_matrix = MatrixOf(left), right_matrix = MatrixOf(right);
-  const cv::Mat left_distortion = DistortionOf(rig.left),
-                right_distortion = DistortionOf(rig.right);
-  cv::Mat left_turn, right_turn, left_projection, right_projection, ignored;
+  cv::Mat disparity_to_depth;
+  // Without CALIB_ZERO_DISPARITY the principal points may differ, which keeps more of both
+  // pictures.
+  cv::stereoRectify(MatrixOf(rig.left.pinhole),
+                    DistortionOf(rig.left),
+                    MatrixOf(rig.right.pinhole),
+                    DistortionOf(rig.right),
+                    {rig.left.pinhole.width, rig.left.pinhole.height},
+                    rotation,
+                    translation,
+                    left->turn,
+                    right->turn,
+                    left->projection,
+                    right->projection,
+                    disparity_to_depth,
+                    /*flags=*/0);
+}
+
+// Fills in where the pixels of a rectified picture lie in the given one. Throws what OpenCV throws.
+void MakeMaps(const LensCamera& camera,
+              const RectifiedCamera& rectified,
+              cv::Mat* columns,
+              cv::Mat* rows) {
+  cv::initUndistortRectifyMap(MatrixOf(camera.pinhole),
+                              DistortionOf(camera),
+                              rectified.turn,
+                              rectified.projection,
+                              {camera.pinhole.width, camera.pinhole.height},
+                              CV_16SC2,
+                              *columns,
+                              *rows);
+}
+
+// Returns the camera and geometry of the rectified pictures.
+RectifiedRig RigOf(const StereoRig& rig,
+                   const RectifiedCamera& left,
+                   const RectifiedCamera& right) {
+  const auto projection = [&](int row, int column) {
+    return left.projection.at<double>(row, column);
+  };
+  RectifiedRig rectified;
+  rectified.camera = {projection(0, 0),
+                      projection(1, 1),
+                      projection(0, 2),
+                      projection(1, 2),
+                      rig.left.pinhole.width,
+                      rig.left.pinhole.height};
+  rectified.baseline = rig.right_from_left.translation.norm();
+  rectified.offset = projection(0, 2) - right.projection.at<double>(0, 2);
+  Eigen::Matrix3d turn;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) turn(i, j) = left.turn.at<double>(i, j);
+  }
+  rectified.rectified_from_left.rotation = Eigen::Quaterniond(turn).normalized();
+  return rectified;
+}
+
+}  // namespace
+
+Rectification::Rectification() = default;
+Rectification::~Rectification() = default;
+
+StatusOr<std::unique_ptr<Rectification>> Rectification::Create(const StereoRig& rig,
+                                                               bool is_rectified) {
+  if (Status status = CheckRig(rig, is_rectified); !status.ok()) return status;
+  std::unique_ptr<Rectification> result(new Rectification);
+  if (is_rectified) {
+    result->rig_.camera = rig.left.pinhole;
+    result->rig_.baseline = -rig.right_from_left.translation.x();
+    result->rig_.offset = rig.left.pinhole.cx - rig.right.pinhole.cx;
+    return StatusOr<std::unique_ptr<Rectification>>(std::move(result));
+  }
+  RectifiedCamera left;
+  RectifiedCamera right;
   auto maps = std::make_unique<Maps>();
   try {
-    // Without CALIB_ZERO_DISPARITY the principal points may differ, which keeps more of both
-    // pictures.
-    cv::stereoRectify(left_matrix,
-                      left_distortion,
-                      right_matrix,
-                      right_distortion,
-                      size,
-                      rotation,
-                      translation,
-                      left_turn,
-                      right_turn,
-                      left_projection,
-                      right_projection,
-                      ignored,
-                      /*flags=*/0);
-    cv::initUndistortRectifyMap(left_matrix,
-                                left_distortion,
-                                left_turn,
-                                left_projection,
-                                size,
-                                CV_16SC2,
-                                maps->left.columns,
-                                maps->left.rows);
-    cv::initUndistortRectifyMap(right_matrix,
-                                right_distortion,
-                                right_turn,
-                                right_projection,
-                                size,
-                                CV_16SC2,
-                                maps->right.columns,
-                                maps->right.rows);
+    TurnCameras(rig, &left, &right);
+    MakeMaps(rig.left, left, &maps->left.columns, &maps->left.rows);
+    MakeMaps(rig.right, right, &maps->right.columns, &maps->right.rows);
   } catch (const std::exception& error) {
     return Status::Error(std::string("the calibration can't be used for rectification: ") +
                          error.what());
   }
-  const auto projection = [&](const cv::Mat& matrix, int row, int column) {
-    return matrix.at<double>(row, column);
-  };
-  rectified.camera = {projection(left_projection, 0, 0),
-                      projection(left_projection, 1, 1),
-                      projection(left_projection, 0, 2),
-                      projection(left_projection, 1, 2),
-                      left.width,
-                      left.height};
-  rectified.baseline = t.norm();
-  rectified.offset = projection(left_projection, 0, 2) - projection(right_projection, 0, 2);
-  Eigen::Matrix3d turn;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) turn(i, j) = left_turn.at<double>(i, j);
-  }
-  rectified.rectified_from_left.rotation = Eigen::Quaterniond(turn).normalized();
+  result->rig_ = RigOf(rig, left, right);
   std::string error;
-  if (!rectified.camera.IsValid(&error)) {
+  if (!result->rig_.camera.IsValid(&error)) {
     return Status::Error("the rectified camera is not usable: " + error);
   }
   result->maps_ = std::move(maps);
