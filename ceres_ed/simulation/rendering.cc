@@ -166,7 +166,7 @@ ColorImage ShadeTissue(const SyntheticRaster& raster,
 void AddHighlights(const std::vector<std::array<int, 3>>& triangles,
                    const PinholeCamera& camera,
                    const Eigen::Vector3d& lamp,
-                   SyntheticView* view) {
+                   RenderedView* view) {
   // The brightness of the mirrored lamp, and how sharply it falls off.
   constexpr double kStrength = 1.5 * 255.0;
   constexpr double kSharpness = 250.0;

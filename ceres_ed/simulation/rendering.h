@@ -67,7 +67,7 @@ ColorImage ShadeTissue(const SyntheticRaster& raster,
                        const SyntheticTexture& texture);
 
 // What one camera sees: geometry and colour.
-struct SyntheticView {
+struct RenderedView {
   SyntheticRaster raster;
   // See IncidenceCosines().
   Image<float> cosines;
@@ -83,7 +83,7 @@ struct SyntheticView {
 void AddHighlights(const std::vector<std::array<int, 3>>& triangles,
                    const PinholeCamera& camera,
                    const Eigen::Vector3d& lamp,
-                   SyntheticView* view);
+                   RenderedView* view);
 
 // Adds Gaussian noise of the standard deviation `sigma` >= 0, in levels, to the brightness of each
 // pixel. The same seed gives the same noise.

@@ -220,16 +220,16 @@ std::optional<StereoRig> SyntheticSequence::rig() const {
 }
 
 // `deformed` are the points of `patch` in the world frame.
-SyntheticView SyntheticSequence::RenderView(const PointCloud& patch,
-                                            const std::vector<Eigen::Vector3d>& deformed,
-                                            const CameraPose& world_from_camera,
-                                            bool with_color) const {
+RenderedView SyntheticSequence::RenderView(const PointCloud& patch,
+                                           const std::vector<Eigen::Vector3d>& deformed,
+                                           const CameraPose& world_from_camera,
+                                           bool with_color) const {
   std::vector<Eigen::Vector3d> points;
   points.reserve(deformed.size());
   for (const Eigen::Vector3d& point : deformed) {
     points.push_back(world_from_camera.ApplyInverse(point));
   }
-  SyntheticView view;
+  RenderedView view;
   view.raster = RasterizeMesh(points, patch.triangles, camera_);
   view.normals = AreaWeightedNormals(points, patch.triangles);
   view.cosines = IncidenceCosines(view.raster, patch.triangles, view.normals, camera_);
@@ -249,7 +249,7 @@ SyntheticFrame SyntheticSequence::Render(int frame, bool with_color) const {
   std::vector<Eigen::Vector3d> deformed;
   deformed.reserve(patch.size());
   for (const Eigen::Vector3d& rest : patch.points) deformed.push_back(scene_->Deform(frame, rest));
-  SyntheticView left =
+  RenderedView left =
       RenderView(patch, deformed, result.world_from_camera, with_color || options_.stereo);
   const DepthNoise noise{options_.noise,
                          options_.disparity_noise / (camera_.fx * options_.baseline)};
@@ -257,7 +257,7 @@ SyntheticFrame SyntheticSequence::Render(int frame, bool with_color) const {
   if (options_.stereo) {
     CameraPose right_pose = result.world_from_camera;
     right_pose.translation += right_pose.rotation * Eigen::Vector3d(options_.baseline, 0.0, 0.0);
-    SyntheticView right = RenderView(patch, deformed, right_pose, true);
+    RenderedView right = RenderView(patch, deformed, right_pose, true);
     const Eigen::Vector3d lamp(0.5 * options_.baseline, 0.0, 0.0);
     AddHighlights(patch.triangles, camera_, lamp, &left);
     AddHighlights(patch.triangles, camera_, -lamp, &right);

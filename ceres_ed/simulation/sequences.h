@@ -131,10 +131,10 @@ class SyntheticSequence {
 
  private:
   void MakeTruth();
-  SyntheticView RenderView(const PointCloud& patch,
-                           const std::vector<Eigen::Vector3d>& deformed,
-                           const CameraPose& world_from_camera,
-                           bool with_color) const;
+  RenderedView RenderView(const PointCloud& patch,
+                          const std::vector<Eigen::Vector3d>& deformed,
+                          const CameraPose& world_from_camera,
+                          bool with_color) const;
 
   SyntheticSequenceOptions options_;
   PinholeCamera camera_;
