@@ -93,10 +93,11 @@ class Winding {
   void TurnPart(int start, std::vector<char>* is_seen, std::vector<char>* is_reversed) {
     std::vector<int> part = {start};
     (*is_seen)[start] = 1;
-    double areas[2] = {0.0, 0.0};
+    double kept_area = 0.0;
+    double reversed_area = 0.0;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const int t = part[i];
-      areas[static_cast<int>((*is_reversed)[t])] +=
+      ((*is_reversed)[t] != 0 ? reversed_area : kept_area) +=
           AreaVector(cloud_.points, cloud_.triangles[t]).norm();
       ForEdges(t, [&](const EdgeUse* use, bool, int) {
         if (!use->JoinsTwo()) return;
@@ -107,7 +108,7 @@ class Winding {
         part.push_back(other);
       });
     }
-    if (areas[1] <= areas[0]) return;
+    if (reversed_area <= kept_area) return;
     for (const int t : part) (*is_reversed)[t] ^= 1;
   }
 

@@ -44,11 +44,12 @@ constexpr std::array<std::array<int, 2>, 4> kNeighbors = {{{1, 0}, {-1, 0}, {0, 
 Image<double> MapDepth(const std::vector<VisiblePoint>& visible, const ObservedSurface& surface) {
   Image<double> depth(surface.width(), surface.height(), std::numeric_limits<double>::infinity());
   const int cell = surface.cell();
+  const int middle = cell / 2;  // the pixel of a cell that its depth belongs to
   const double f = std::max(surface.camera().fx, surface.camera().fy);
   for (const VisiblePoint& point : visible) {
     const double radius = kReach * f / point.in_camera.z() / cell;
-    const double ci = (point.pixel.x() - cell / 2) / cell;
-    const double cj = (point.pixel.y() - cell / 2) / cell;
+    const double ci = (point.pixel.x() - middle) / cell;
+    const double cj = (point.pixel.y() - middle) / cell;
     const int i_end = std::min(depth.width() - 1, static_cast<int>(std::floor(ci + radius)));
     const int j_end = std::min(depth.height() - 1, static_cast<int>(std::floor(cj + radius)));
     for (int j = std::max(0, static_cast<int>(std::ceil(cj - radius))); j <= j_end; ++j) {
