@@ -1,5 +1,7 @@
 #include "ceres_ed/geometry/topology.h"
 
+#include <ceres_ed/geometry/bounding_box.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,6 +14,11 @@
 
 namespace ceres_ed {
 namespace {
+
+// Points are the same if their coordinates are equal when rounded to about this part of the
+// diagonal. Programs that compute a seam twice (sin 0 and sin 2 pi) leave less between its sides,
+// and moving a cloud leaves less, too.
+constexpr double kWeldDistance = 1e-12;
 
 // One triangle at a point: the edge to `neighbor`, and the corner opposite to that edge. Both are
 // stored in one number, so that wings compare by neighbour, then by corner.
@@ -232,10 +239,17 @@ std::vector<int> WeldPoints(const std::vector<Eigen::Vector3d>& points,
     double x, y, z;
     int index;
   };
+  // A power of two, so that scaling by it is exact.
+  const double diagonal = Diagonal(points);
+  const double cells = std::exp2(std::floor(-std::log2(kWeldDistance * diagonal)));
+  const bool has_cells = std::isfinite(cells) && cells > 0.0;
+  const auto snap = [cells, has_cells](double x) {
+    // Adding zero turns -0 into 0.
+    return (has_cells ? std::nearbyint(x * cells) : x) + 0.0;
+  };
   std::vector<Item> items(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    // Adding zero turns -0 into 0.
-    items[i] = {points[i].x() + 0.0, points[i].y() + 0.0, points[i].z() + 0.0, static_cast<int>(i)};
+    items[i] = {snap(points[i].x()), snap(points[i].y()), snap(points[i].z()), static_cast<int>(i)};
   }
   std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
     if (a.x != b.x) return a.x < b.x;

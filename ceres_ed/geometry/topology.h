@@ -84,9 +84,9 @@ struct SurfaceTopology {
 // Returns the topology of `cloud`. Fails a CHECK on a triangle index that is out of range.
 SurfaceTopology BuildTopology(const PointCloud& cloud);
 
-// Returns for each point the lowest index of the points at exactly the same position (0 and -0 are
-// equal). If `walk_order` is given, the representatives are written to it, sorted by x, then y,
-// then z.
+// Returns for each point the lowest index of the points at the same position, up to rounding (1e-12
+// of the diagonal). If `walk_order` is given, the representatives are written to it, sorted by x,
+// then y, then z.
 std::vector<int> WeldPoints(const std::vector<Eigen::Vector3d>& points,
                             std::vector<int>* walk_order = nullptr);
 

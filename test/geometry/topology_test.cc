@@ -123,12 +123,36 @@ TEST(Topology, TrianglesWithoutThreePositionsAndRepeatedOnesDoNotCount) {
   EXPECT_EQ(topology.is_isolated[3], 1);
 }
 
-TEST(WeldPoints, JoinsPositionsThatAreEqualToTheBit) {
+TEST(WeldPoints, JoinsPositionsThatAreEqualUpToRounding) {
   const double next = std::nextafter(1.0, 2.0);
   std::vector<int> order;
-  EXPECT_EQ(WeldPoints({{1, 0, 0}, {next, 0, 0}, {1, -0.0, 0}, {0, 7, 0}}, &order),
-            (std::vector<int>{0, 1, 0, 3}));
-  EXPECT_EQ(order, (std::vector<int>{3, 0, 1}));
+  EXPECT_EQ(WeldPoints({{1, 0, 0}, {next, 0, 1e-17}, {1, -0.0, -1e-17}, {0, 7, 0}, {1, 0, 1e-10}},
+                       &order),
+            (std::vector<int>{0, 0, 0, 3, 4}));
+  EXPECT_EQ(order, (std::vector<int>{3, 0, 4}));
+}
+
+TEST(WeldPoints, JoinsEqualPositionsOfAnySize) {
+  for (const double size : {1e-320, 1e-200, 1e-3, 1e3, 1e200}) {
+    const std::vector<Eigen::Vector3d> points = {
+        {size, 0, 0}, {0, size, 0}, {size, 0, 0}, {0, 0, size}};
+    EXPECT_EQ(WeldPoints(points), (std::vector<int>{0, 1, 0, 3})) << size;
+  }
+  EXPECT_EQ(WeldPoints({{1, 2, 3}, {1, 2, 3}}), (std::vector<int>{0, 0}));
+}
+
+// A seam that is closed in the file must be closed wherever the surface is, so that graphs and
+// warps bind points to the same nodes in every frame.
+TEST(WeldPoints, JoinsASeamThatWasComputedTwice) {
+  std::vector<Eigen::Vector3d> ring;
+  for (int i = 0; i <= 24; ++i) {
+    const double angle = 2.0 * M_PI * i / 24;
+    ring.emplace_back(std::cos(angle), std::sin(angle), 0.0);
+  }
+  ASSERT_NE(ring.front(), ring.back());
+  EXPECT_EQ(WeldPoints(ring).back(), 0);
+  for (Eigen::Vector3d& point : ring) point += Eigen::Vector3d(3.0, -2.0, 0.5);
+  EXPECT_EQ(WeldPoints(ring).back(), 0);
 }
 
 TEST(TopologyDeathTest, ATriangleIndexOutOfRangeIsAProgrammersMistake) {
