@@ -20,19 +20,49 @@
 namespace ceres_ed {
 namespace {
 
+// Returns an error for a PNG that is cut off: libpng would write to stderr on its own. Its chunks
+// (length, type, data, checksum) must end with IEND.
+Status CheckWholePng(const std::string& path, std::string_view bytes) {
+  constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+  constexpr std::size_t kAroundData = 12;
+  if (bytes.substr(0, kSignature.size()) != kSignature) return Status::Ok();
+  std::size_t at = kSignature.size();
+  while (bytes.size() - at >= kAroundData) {
+    std::size_t length = 0;
+    for (int i = 0; i < 4; ++i) length = length << 8 | static_cast<std::uint8_t>(bytes[at + i]);
+    if (bytes.size() - at - kAroundData < length) break;
+    if (bytes.substr(at + 4, 4) == "IEND") return Status::Ok();
+    at += kAroundData + length;
+  }
+  return Status::Error(path + ": a PNG that ends after " + std::to_string(bytes.size()) +
+                       " bytes, before its last chunk (IEND): it was not written whole");
+}
+
+// Returns one line: OpenCV's messages have several.
+std::string OneLine(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; }, ' ');
+  return text;
+}
+
 StatusOr<cv::Mat> Decode(const std::string& path, int flags) {
   // The file is read first, since OpenCV gives the reason why a file can't be opened only on
   // stderr.
   const StatusOr<std::string> bytes = ReadWholeFile(path);
   if (!bytes.ok()) return bytes.status();
   if (bytes->empty()) return Status::Error(path + ": empty, expected a PNG or JPEG");
+  if (Status status = CheckWholePng(path, *bytes); !status.ok()) return status;
+  if (bytes->size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
+    return Status::Error(path + ": " + std::to_string(bytes->size()) +
+                         " bytes, expected less than 2 GiB");
+  }
   const cv::Mat encoded(
       1, static_cast<int>(bytes->size()), CV_8UC1, const_cast<char*>(bytes->data()));
   cv::Mat image;
   try {
     image = cv::imdecode(encoded, flags);
   } catch (const std::exception& error) {
-    return Status::Error(path + ": can't be decoded: " + error.what());
+    return Status::Error(path + ": can't be decoded: " + OneLine(error.what()));
   }
   if (image.empty()) return Status::Error(path + ": no picture that can be read (PNG or JPEG)");
   return image;

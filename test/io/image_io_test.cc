@@ -160,6 +160,17 @@ TEST_F(Images, MissingOrDamagedFileIsAnErrorThatNamesIt) {
   EXPECT_THAT(ReadColorImage(directory_.path()).status().message(), HasSubstr(directory_.path()));
 }
 
+TEST_F(Images, PngThatIsCutOffIsAnErrorAndNothingElseIsPrinted) {
+  const std::string whole = FromHex(kGrey16);
+  for (const std::size_t size : {whole.size() - 1, whole.size() - 12, std::size_t(40)}) {
+    WriteBytes(path_, whole.substr(0, size));
+    ::testing::internal::CaptureStderr();
+    const Status status = ReadDepthImage(path_, 1000.0).status();
+    EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+    EXPECT_THAT(status.message(), HasSubstr("ends after " + std::to_string(size) + " bytes"));
+  }
+}
+
 TEST_F(Images, UnwritablePathIsAnErrorThatNamesIt) {
   const std::string path = directory_ / "none/depth.png";
   EXPECT_THAT(WriteDepthImage(path, DepthImage(2, 2, 1.0F), 1000.0).message(), HasSubstr(path));
