@@ -2,6 +2,7 @@
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/pipeline/fit/stray_vertices.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/util/options.h>
 
@@ -9,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include <apps/support/console.h>
 #include <apps/support/option_flags.h>
 #include <apps/support/program.h>
-#include <glog/logging.h>
 
 namespace ceres_ed {
 namespace {
@@ -45,6 +46,9 @@ Outcome Run(const std::vector<std::string>& arguments) {
   StatusOr<LoadedCloud> loaded = LoadCloud(arguments[1]);
   if (!loaded.ok()) return Outcome::BadInput(loaded.status());
 
+  // As in a fit, so that the fit's own source gives the fit's result. A list of points, however,
+  // may hold annotations anywhere.
+  if (loaded->cloud.HasTriangles()) LeaveOutStrayVertices(arguments[1], &*loaded);
   PointCloud& cloud = loaded->cloud;
   if (Status status = ApplyWarp(*warp, &cloud); !status.ok()) {
     return Outcome::BadInput(Status::Error(arguments[0] + ": " + status.message()));
@@ -53,7 +57,8 @@ Outcome Run(const std::vector<std::string>& arguments) {
       SaveCloud(output, *loaded, cloud.points, cloud.HasNormals() ? &cloud.normals : nullptr);
   if (!saved.ok()) return Outcome::BadInput(saved);
 
-  for (const std::string& warning : loaded->warnings) LOG(WARNING) << warning;
+  Console console("ed_apply", /*quiet=*/false);
+  for (const std::string& warning : loaded->warnings) console.Warn(warning);
   std::printf("%s: %zu points deformed by %d nodes\n",
               output.c_str(),
               cloud.size(),

@@ -72,6 +72,19 @@ TEST(EdApply, MovesEveryPointAndKeepsAllElse) {
   EXPECT_EQ(labels->values, (std::vector<double>{7, 8, 9}));
 }
 
+TEST(EdApply, SaysWhatItLeavesOutAsEveryProgramDoes) {
+  const std::string warp = WriteTurn(TempPath("w5.json"));
+  const std::string cloud = WriteTriangle(TempPath("in5.ply"));
+  std::string text;
+  std::getline(std::ifstream(cloud), text, '\0');
+  text.replace(text.find("3 0 1 2"), 7, "3 0 1 1");
+  std::ofstream(cloud) << text;
+  const ProgramResult result = Apply({warp, cloud, "--output=" + TempPath("out5.ply")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err,
+            "ed_apply: warning: " + cloud + ": 1 triangle with a repeated corner dropped\n");
+}
+
 TEST(EdApply, NeedsAnOutput) {
   const ProgramResult result = Apply({"w.json", "in.ply"});
   EXPECT_EQ(result.exit_code, 1);

@@ -97,6 +97,26 @@ TEST_F(EdFitTest, WarpDoesThroughEdApplyWhatTheFitDid) {
   EXPECT_LT(Summarize(SurfaceDistances(fine, target)).max, 2.0 * kRingFacets);
 }
 
+// A stray vertex in a triangle would be a short cut for distances along the surface.
+TEST_F(EdFitTest, WarpDoesWhatTheFitDidWhereVerticesAreStray) {
+  RingOptions source;
+  source.more_vertices = {"900 0 0"};
+  for (int v = 0; v < 6; ++v) {
+    source.more_faces.push_back("3 " + std::to_string(v) + " " + std::to_string(v + 150) + " 288");
+  }
+  WritePair(source, {});
+  const ProgramResult fit = FitPair({"--warp=" + (dir_ / "warp.json")});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  ASSERT_THAT(fit.err, HasSubstr("1 vertex far from all others left out"));
+  ASSERT_EQ(RunProgramFile(
+                AppPath("ed_apply"),
+                {dir_ / "warp.json", dir_ / "source.ply", "--output=" + (dir_ / "applied.ply")})
+                .exit_code,
+            0);
+  EXPECT_LT(LargestDistance(Load("applied.ply").cloud.points, Load("out.ply").cloud.points),
+            1e-7 * kRingDiagonal);
+}
+
 TEST_F(EdFitTest, WritesTheGraphOfTheReport) {
   ASSERT_EQ(FitPair({"--graph=" + (dir_ / "graph.ply"),
                      "--warp=" + (dir_ / "warp.json"),
