@@ -11,6 +11,7 @@
 #   docs      what scripts/docs.sh makes the API pages with
 #   test      what scripts/test.sh needs: all of the above
 #   lint      clang-format and clang-tidy
+#   fuzz      clang with libFuzzer, for scripts/fuzz.sh
 #   all       test and lint
 set -euo pipefail
 
@@ -45,9 +46,10 @@ add_list() {
       add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy
       ;;
     lint) add clang-format clang-tidy ;;
+    fuzz) add clang libclang-rt-14-dev ;;
     all) add_list test && add_list lint ;;
     *)
-      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, video, packages, docs, test, lint or all" >&2
+      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, video, packages, docs, test, lint, fuzz or all" >&2
       exit 1
       ;;
   esac
