@@ -24,6 +24,8 @@ DepthImage RoughDepth(int width, int height) {
   depth(3, 2) = std::numeric_limits<float>::quiet_NaN();
   depth(5, 7) = std::numeric_limits<float>::infinity();
   depth(8, 4) = -1.0F;
+  // In a sum of inverses this value drowns all others.
+  depth(6, 5) = 1e-9F;
   return depth;
 }
 
@@ -75,7 +77,7 @@ void ExpectPlainSums(const DepthImage& depth, const WindowOptions& options) {
       EXPECT_EQ(sums.uu[i], s.uu);
       EXPECT_EQ(sums.uv[i], s.uv);
       EXPECT_EQ(sums.vv[i], s.vv);
-      const double rounding = 1e-14 * (1.0 + s.n * options.radius);
+      const double rounding = 1e-14 * (1.0 + s.n * options.radius) * std::max(1.0, s.qq);
       EXPECT_NEAR(sums.q[i], s.q, rounding);
       EXPECT_NEAR(sums.uq[i], s.uq, rounding);
       EXPECT_NEAR(sums.vq[i], s.vq, rounding);
@@ -92,7 +94,8 @@ TEST(WindowSummer, SumsAsPixelByPixel) {
   for (const int width : {9, 41, 160}) {
     const DepthImage depth = RoughDepth(width, 24);
     for (options.cell = 1; options.cell <= 5; ++options.cell) {
-      for (options.radius = 1; options.radius <= 4; ++options.radius) {
+      for (const int radius : {1, 2, 3, 4, 7}) {
+        options.radius = radius;
         ExpectPlainSums(depth, options);
       }
     }
@@ -103,6 +106,17 @@ TEST(WindowSummer, TakesAnyDepthWhereStepsHaveNoBound) {
   WindowOptions options;
   options.max_step = 1e3;
   ExpectPlainSums(RoughDepth(50, 20), options);
+}
+
+TEST(WindowSummer, GivesTheSameBytesWhicheverRowsWereReadBefore) {
+  const DepthImage depth = RoughDepth(60, 24);
+  WindowOptions options;
+  options.max_step = 0.02;
+  WindowSummer after(depth, options);
+  for (int v = 0; v < 11; ++v) after.SumRow(v);
+  WindowSummer alone(depth, options);
+  EXPECT_EQ(after.SumRow(11).qq, alone.SumRow(11).qq);
+  EXPECT_EQ(after.SumRow(4).uq, alone.SumRow(4).uq);
 }
 
 TEST(WindowSummer, TakesPicturesSmallerThanAWindow) {

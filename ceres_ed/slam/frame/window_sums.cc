@@ -3,30 +3,16 @@
 #include <ceres_ed/util/for_each_machine.h>
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdlib>
-#include <limits>
 
 namespace ceres_ed {
 namespace {
 
-// The number of windows that are processed together.
-constexpr int kChunk = 32;
-
-// A row of pixels of the windows [begin, end), in the form that the kernels use.
-struct PixelRow {
-  int begin;
-  int end;
-  // The row relative to the windows' middles, and the number of columns to either side.
-  int dv;
-  int radius;
-  // Pixel (du, dv) of window i is pixels[du + radius][i].
-  const double* const* pixels;
-  // z0 of each window.
-  const double* middle;
-  // The bounds of q for each column.
-  const double* least;
-  const double* most;
-};
+// A pixel that is nearer than z0 by this factor makes sums that lose too many digits when it is
+// removed from them.
+constexpr double kExtremeRatio = 100.0;
 
 // Computes the inverse of depths; 0 where there is no depth.
 CERES_ED_FOR_EACH_MACHINE
@@ -39,84 +25,140 @@ void Invert(const float* depth, int count, double* inverse) {
   }
 }
 
-// The default radius is a compile-time constant: with its columns unrolled, the compiler vectorises
-// the loop over windows.
-constexpr int kUsualRadius = WindowOptions().radius;
-
-template <int kRadius>
-[[gnu::always_inline]] inline void AddInverses(const PixelRow& row,
-                                               double* __restrict n,
-                                               double* __restrict q,
-                                               double* __restrict uq,
-                                               double* __restrict vq,
-                                               double* __restrict qq) {
-  const int radius = kRadius > 0 ? kRadius : row.radius;
-  for (int i = row.begin; i < row.end; ++i) {
-    double n_row = 0.0, q_row = 0.0, uq_row = 0.0, qq_row = 0.0;
-    for (int k = 0; k < 2 * radius + 1; ++k) {
-      const double ratio = row.middle[i] * row.pixels[k][i];
-      const bool counts = (ratio >= row.least[k]) & (ratio <= row.most[k]);
-      const double counted = counts ? ratio : 0.0;
-      n_row += counts ? 1.0 : 0.0;
-      q_row += counted;
-      uq_row += (k - radius) * counted;
-      qq_row += counted * counted;
-    }
-    n[i] += n_row;
-    q[i] += q_row;
-    uq[i] += uq_row;
-    vq[i] += row.dv * q_row;
-    qq[i] += qq_row;
-  }
-}
-
-template <int kRadius>
-[[gnu::always_inline]] inline void AddPlaces(const PixelRow& row,
-                                             double* __restrict u,
-                                             double* __restrict v,
-                                             double* __restrict uu,
-                                             double* __restrict uv,
-                                             double* __restrict vv) {
-  const int radius = kRadius > 0 ? kRadius : row.radius;
-  for (int i = row.begin; i < row.end; ++i) {
-    double n_row = 0.0, u_row = 0.0, uu_row = 0.0;
-    for (int k = 0; k < 2 * radius + 1; ++k) {
-      const double ratio = row.middle[i] * row.pixels[k][i];
-      const bool counts = (ratio >= row.least[k]) & (ratio <= row.most[k]);
-      const double du = counts ? k - radius : 0.0;
-      n_row += counts ? 1.0 : 0.0;
-      u_row += du;
-      uu_row += du * du;
-    }
-    u[i] += u_row;
-    v[i] += row.dv * n_row;
-    uu[i] += uu_row;
-    uv[i] += row.dv * u_row;
-    vv[i] += row.dv * row.dv * n_row;
-  }
-}
-
-// Computes n and the sums that contain q.
+// Adds the rows at +dv and -dv to the sums over columns.
 CERES_ED_FOR_EACH_MACHINE
-void AddInverseSums(const PixelRow& row, WindowSums* sums) {
-  if (row.radius == kUsualRadius) {
-    AddInverses<kUsualRadius>(
-        row, sums->n.data(), sums->q.data(), sums->uq.data(), sums->vq.data(), sums->qq.data());
-  } else {
-    AddInverses<0>(
-        row, sums->n.data(), sums->q.data(), sums->uq.data(), sums->vq.data(), sums->qq.data());
+void AddRows(const double* below,
+             const double* above,
+             double dv,
+             int count,
+             double* __restrict w,
+             double* __restrict vw,
+             double* __restrict ww) {
+  for (int c = 0; c < count; ++c) {
+    w[c] += below[c] + above[c];
+    vw[c] += dv * (below[c] - above[c]);
+    ww[c] += below[c] * below[c] + above[c] * above[c];
   }
 }
 
-// Computes the other sums.
+// Adds sums over the columns at +du and -du to the sums over windows.
 CERES_ED_FOR_EACH_MACHINE
-void AddPlaceSums(const PixelRow& row, WindowSums* sums) {
-  if (row.radius == kUsualRadius) {
-    AddPlaces<kUsualRadius>(
-        row, sums->u.data(), sums->v.data(), sums->uu.data(), sums->uv.data(), sums->vv.data());
-  } else {
-    AddPlaces<0>(
-        row, sums->u.data(), sums->v.data(), sums->uu.data(), sums->uv.data(), sums->vv.data());
+void AddColumns(const double* right,
+                const double* left,
+                double du,
+                int count,
+                double* __restrict sum,
+                double* __restrict usum) {
+  for (int i = 0; i < count; ++i) {
+    sum[i] += right[i] + left[i];
+    usum[i] += du * (right[i] - left[i]);
+  }
+}
+
+CERES_ED_FOR_EACH_MACHINE
+void AddColumns(const double* right, const double* left, int count, double* __restrict sum) {
+  for (int i = 0; i < count; ++i) sum[i] += right[i] + left[i];
+}
+
+// Multiplies the sums of inverse depths by z0.
+CERES_ED_FOR_EACH_MACHINE
+void Scale(const double* middle,
+           int count,
+           double* __restrict q,
+           double* __restrict uq,
+           double* __restrict vq,
+           double* __restrict qq) {
+  for (int i = 0; i < count; ++i) {
+    q[i] *= middle[i];
+    uq[i] *= middle[i];
+    vq[i] *= middle[i];
+    qq[i] *= middle[i] * middle[i];
+  }
+}
+
+// Pixel (k, -ring) of the first of some windows, and the pixels to which turns by 90 degrees about
+// the middle carry it: (ring, k), (-k, ring) and (-ring, -k). Those of the next windows follow.
+using Quad = std::array<const double*, 4>;
+
+// Unlike std::min() and std::max(), these become one instruction.
+inline double Lesser(double a, double b) { return a < b ? a : b; }
+inline double Greater(double a, double b) { return a > b ? a : b; }
+
+// Extends the ranges of the windows by four pixels.
+CERES_ED_FOR_EACH_MACHINE
+void Extend(const Quad& quad, int count, double* __restrict low, double* __restrict high) {
+  const auto [a, b, c, d] = quad;
+  for (int i = 0; i < count; ++i) {
+    low[i] = Lesser(Lesser(a[i], b[i]), Lesser(low[i], Lesser(c[i], d[i])));
+    high[i] = Greater(Greater(a[i], b[i]), Greater(high[i], Greater(c[i], d[i])));
+  }
+}
+
+// The pixels of a ring whose q is less than `least` or greater than `most` do not belong.
+struct RingBounds {
+  double ring;
+  double least;
+  double most;
+
+  bool Contains(double q) const { return (q >= least) & (q <= most); }
+};
+
+// Removes those of four pixels that do not belong to the surface from the sums that contain q.
+CERES_ED_FOR_EACH_MACHINE
+void RemoveInverses(const Quad& quad,
+                    double k,
+                    const RingBounds bounds,
+                    const double* middle,
+                    int count,
+                    double* __restrict q,
+                    double* __restrict uq,
+                    double* __restrict vq,
+                    double* __restrict qq) {
+  const auto [pixel_a, pixel_b, pixel_c, pixel_d] = quad;
+  for (int i = 0; i < count; ++i) {
+    const double q_a = middle[i] * pixel_a[i];
+    const double q_b = middle[i] * pixel_b[i];
+    const double q_c = middle[i] * pixel_c[i];
+    const double q_d = middle[i] * pixel_d[i];
+    const double a = bounds.Contains(q_a) ? 0.0 : q_a;
+    const double b = bounds.Contains(q_b) ? 0.0 : q_b;
+    const double c = bounds.Contains(q_c) ? 0.0 : q_c;
+    const double d = bounds.Contains(q_d) ? 0.0 : q_d;
+    q[i] -= (a + c) + (b + d);
+    uq[i] -= k * (a - c) + bounds.ring * (b - d);
+    vq[i] -= k * (b - d) - bounds.ring * (a - c);
+    qq[i] -= (a * a + c * c) + (b * b + d * d);
+  }
+}
+
+// Removes them from the other sums.
+CERES_ED_FOR_EACH_MACHINE
+void RemovePlaces(const Quad& quad,
+                  double k,
+                  const RingBounds bounds,
+                  const double* middle,
+                  int count,
+                  double* __restrict n,
+                  double* __restrict u,
+                  double* __restrict v,
+                  double* __restrict uu,
+                  double* __restrict uv,
+                  double* __restrict vv) {
+  const auto [pixel_a, pixel_b, pixel_c, pixel_d] = quad;
+  const double kk = k * k;
+  const double rr = bounds.ring * bounds.ring;
+  for (int i = 0; i < count; ++i) {
+    const double counted = middle[i] > 0.0 ? 1.0 : 0.0;
+    const double a = bounds.Contains(middle[i] * pixel_a[i]) ? 0.0 : counted;
+    const double b = bounds.Contains(middle[i] * pixel_b[i]) ? 0.0 : counted;
+    const double c = bounds.Contains(middle[i] * pixel_c[i]) ? 0.0 : counted;
+    const double d = bounds.Contains(middle[i] * pixel_d[i]) ? 0.0 : counted;
+    n[i] -= (a + c) + (b + d);
+    u[i] -= k * (a - c) + bounds.ring * (b - d);
+    v[i] -= k * (b - d) - bounds.ring * (a - c);
+    uu[i] -= kk * (a + c) + rr * (b + d);
+    uv[i] -= k * bounds.ring * ((b + d) - (a + c));
+    vv[i] -= rr * (a + c) + kk * (b + d);
   }
 }
 
@@ -130,16 +172,16 @@ WindowSummer::WindowSummer(DepthView depth, const WindowOptions& options)
       count_((depth.width() + options.cell - 1) / options.cell),
       margin_(options.radius / options.cell + 1),
       part_size_(count_ + 2 * margin_) {
-  for (int dv = 0; dv <= radius_; ++dv) {
-    for (int du = -radius_; du <= radius_; ++du) {
-      const double step = options.max_step * std::max({std::abs(du), dv, 1});
-      least_.push_back(1.0 / (1.0 + step));
-      most_.push_back(step < 1.0 ? 1.0 / (1.0 - step) : std::numeric_limits<double>::max());
-    }
+  for (int ring = 0; ring <= radius_; ++ring) {
+    const double step = options.max_step * std::max(ring, 1);
+    least_.push_back(1.0 / (1.0 + step));
+    most_.push_back(step < 1.0 ? 1.0 / (1.0 - step) : std::numeric_limits<double>::max());
   }
   for (int du = 1; du <= radius_; ++du) full_square_ += 2.0 * du * du * size_;
-  inverse_.assign(static_cast<std::size_t>(size_) * cell_ * part_size_, 0.0);
+  const int row_size = cell_ * part_size_;
+  inverse_.assign(static_cast<std::size_t>(size_) * row_size, 0.0);
   line_.resize(depth.width());
+  for (auto* sum : {&columns_.w, &columns_.vw, &columns_.ww}) sum->resize(row_size);
   pixels_.resize(static_cast<std::size_t>(size_) * size_);
   middle_.resize(count_);
   for (auto* sum : Sums()) sum->resize(count_);
@@ -150,28 +192,53 @@ std::array<std::vector<double>*, 10> WindowSummer::Sums() {
   return {&s.n, &s.u, &s.v, &s.uu, &s.uv, &s.vv, &s.q, &s.uq, &s.vq, &s.qq};
 }
 
-double* WindowSummer::Pixel(int u, int v) {
+int WindowSummer::Column(int u) const {
   // The column is never negative.
   const int column = u + margin_ * cell_;
-  const std::size_t part = static_cast<std::size_t>(v % size_) * cell_ + column % cell_;
-  return inverse_.data() + part * part_size_ + column / cell_;
+  return column % cell_ * part_size_ + column / cell_;
+}
+
+double* WindowSummer::Row(int v) {
+  // Rows above the picture have negative numbers.
+  const std::size_t slot = (v + size_) % size_;
+  return inverse_.data() + slot * cell_ * part_size_;
 }
 
 void WindowSummer::ReadRow(int v) {
+  double* row = Row(v);
+  if (v < 0 || v >= depth_.height()) {
+    std::fill_n(row, cell_ * part_size_, 0.0);
+    return;
+  }
   const int width = depth_.width();
   Invert(depth_.pixels() + static_cast<std::size_t>(v) * width, width, line_.data());
   for (int p = 0; p < std::min(cell_, width); ++p) {
-    double* part = Pixel(p, v);
+    double* part = row + Column(p);
     for (int u = p; u < width; u += cell_) *part++ = line_[u];
   }
 }
 
+void WindowSummer::SumColumns(int v0) {
+  const int row_size = cell_ * part_size_;
+  const double* middle = Row(v0);
+  ColumnSums& sums = columns_;
+  for (int c = 0; c < row_size; ++c) {
+    sums.w[c] = middle[c];
+    sums.vw[c] = 0.0;
+    sums.ww[c] = middle[c] * middle[c];
+  }
+  for (int dv = 1; dv <= radius_; ++dv) {
+    AddRows(
+        Row(v0 + dv), Row(v0 - dv), dv, row_size, sums.w.data(), sums.vw.data(), sums.ww.data());
+  }
+}
+
 const WindowSums& WindowSummer::SumRow(int v0) {
-  const int first = std::max(0, v0 - radius_);
-  const int last = std::min(depth_.height() - 1, v0 + radius_);
+  const int first = v0 - radius_;
+  const int last = v0 + radius_;
   if (next_row_ < first || next_row_ > last + 1) next_row_ = first;
   for (; next_row_ <= last; ++next_row_) ReadRow(next_row_);
-  for (std::vector<double>* sum : Sums()) std::fill(sum->begin(), sum->end(), 0.0);
+  SumColumns(v0);
   const bool is_cut = (count_ - 1) * cell_ + cell_ / 2 >= depth_.width();
   SumWindows(0, is_cut ? count_ - 1 : count_, cell_ / 2, v0);
   if (is_cut) SumWindows(count_ - 1, count_, depth_.width() - 1, v0);
@@ -180,40 +247,127 @@ const WindowSums& WindowSummer::SumRow(int v0) {
 
 // Sums the windows [begin, end), the first of which is around column u0.
 void WindowSummer::SumWindows(int begin, int end, int u0, int v0) {
-  const double* inverse = Pixel(u0, v0) - begin;
+  const double** pixel = pixels_.data();
+  for (int dv = -radius_; dv <= radius_; ++dv) {
+    for (int du = -radius_; du <= radius_; ++du) {
+      *pixel++ = Row(v0 + dv) + Column(u0 + du) - begin;
+    }
+  }
+  const double* inverse = Row(v0) + Column(u0) - begin;
   for (int i = begin; i < end; ++i) {
     middle_[i] = inverse[i] > 0.0 ? depth_(u0 + (i - begin) * cell_, v0) : 0.0F;
   }
-  for (int v = std::max(0, v0 - radius_); v <= std::min(depth_.height() - 1, v0 + radius_); ++v) {
-    const double** pixels = &pixels_[static_cast<std::size_t>(v - v0 + radius_) * size_];
-    for (int k = 0; k < size_; ++k) pixels[k] = Pixel(u0 + k - radius_, v) - begin;
-  }
-  const auto add_rows = [&](int from, int to, void (*add)(const PixelRow&, WindowSums*)) {
-    for (int v = std::max(0, v0 - radius_); v <= std::min(depth_.height() - 1, v0 + radius_); ++v) {
-      const std::size_t bounds = static_cast<std::size_t>(std::abs(v - v0)) * size_;
-      add({from,
-           to,
-           v - v0,
-           radius_,
-           &pixels_[static_cast<std::size_t>(v - v0 + radius_) * size_],
-           middle_.data(),
-           &least_[bounds],
-           &most_[bounds]},
-          &sums_);
-    }
-  };
   for (int from = begin; from < end; from += kChunk) {
     const int to = std::min(from + kChunk, end);
-    const auto is_empty = [](double z) { return z == 0.0; };
-    if (std::all_of(&middle_[from], &middle_[from] + (to - from), is_empty)) continue;
-    add_rows(from, to, AddInverseSums);
-    bool full = true;
-    for (int i = from; i < to; ++i) full = full && IsFull(i);
-    if (full) {
-      std::fill_n(&sums_.uu[from], to - from, full_square_);
-      std::fill_n(&sums_.vv[from], to - from, full_square_);
-    } else {
-      add_rows(from, to, AddPlaceSums);
+    if (TakeAllPixels(from, to, u0 + (from - begin) * cell_)) RemoveOutliers(from, to);
+  }
+}
+
+// Sums all pixels of the windows [from, to), the first of which is around a column. Returns false
+// if none of them has a middle.
+bool WindowSummer::TakeAllPixels(int from, int to, int column) {
+  const int count = to - from;
+  WindowSums& s = sums_;
+  for (auto* sum : Sums()) std::fill_n(sum->begin() + from, count, 0.0);
+  const auto has_depth = [](double z) { return z > 0.0; };
+  if (std::none_of(&middle_[from], &middle_[from] + count, has_depth)) return false;
+  std::fill_n(&s.n[from], count, full_count());
+  std::fill_n(&s.uu[from], count, full_square_);
+  std::fill_n(&s.vv[from], count, full_square_);
+  const int middle = Column(column);
+  std::copy_n(&columns_.w[middle], count, &s.q[from]);
+  std::copy_n(&columns_.vw[middle], count, &s.vq[from]);
+  std::copy_n(&columns_.ww[middle], count, &s.qq[from]);
+  for (int du = 1; du <= radius_; ++du) {
+    const int right = Column(column + du);
+    const int left = Column(column - du);
+    AddColumns(&columns_.w[right], &columns_.w[left], du, count, &s.q[from], &s.uq[from]);
+    AddColumns(&columns_.vw[right], &columns_.vw[left], count, &s.vq[from]);
+    AddColumns(&columns_.ww[right], &columns_.ww[left], count, &s.qq[from]);
+  }
+  Scale(&middle_[from], count, &s.q[from], &s.uq[from], &s.vq[from], &s.qq[from]);
+  return true;
+}
+
+// Removes the pixels that do not belong to the surface from the sums of the windows [from, to).
+void WindowSummer::RemoveOutliers(int from, int to) {
+  std::array<double, kChunk> largest;
+  for (int i = from; i < to; ++i) {
+    if (middle_[i] == 0.0) sums_.n[i] = sums_.uu[i] = sums_.vv[i] = 0.0;
+    largest[i - from] = 0.0;
+  }
+  for (int ring = 1; ring <= radius_; ++ring) {
+    const RingRange range = RangeOfRing(from, to, ring);
+    int first = to;
+    int last = from;
+    for (int i = from; i < to; ++i) {
+      const double q_high = middle_[i] * range.high[i - from];
+      largest[i - from] = std::max(largest[i - from], q_high);
+      const bool belongs =
+          middle_[i] * range.low[i - from] >= least_[ring] && q_high <= most_[ring];
+      if (belongs || middle_[i] == 0.0) continue;
+      first = std::min(first, i);
+      last = i + 1;
+    }
+    if (first < last) RemoveOutliersOfRing(first, last, ring);
+  }
+  for (int i = from; i < to; ++i) {
+    if (largest[i - from] > kExtremeRatio) SumPixels(i);
+  }
+}
+
+WindowSummer::RingRange WindowSummer::RangeOfRing(int from, int to, int ring) const {
+  RingRange range;
+  range.low.fill(std::numeric_limits<double>::max());
+  range.high.fill(0.0);
+  for (int k = -ring; k < ring; ++k) {
+    Extend(QuadAt(from, k, ring), to - from, range.low.data(), range.high.data());
+  }
+  return range;
+}
+
+void WindowSummer::RemoveOutliersOfRing(int from, int to, int ring) {
+  const RingBounds bounds = {static_cast<double>(ring), least_[ring], most_[ring]};
+  const double* middle = &middle_[from];
+  const int count = to - from;
+  WindowSums& s = sums_;
+  for (int k = -ring; k < ring; ++k) {
+    const auto quad = QuadAt(from, k, ring);
+    RemoveInverses(
+        quad, k, bounds, middle, count, &s.q[from], &s.uq[from], &s.vq[from], &s.qq[from]);
+    RemovePlaces(quad,
+                 k,
+                 bounds,
+                 middle,
+                 count,
+                 &s.n[from],
+                 &s.u[from],
+                 &s.v[from],
+                 &s.uu[from],
+                 &s.uv[from],
+                 &s.vv[from]);
+  }
+}
+
+// Sums the pixels of one window that belong to the surface one by one.
+void WindowSummer::SumPixels(int i) {
+  WindowSums& s = sums_;
+  for (auto* sum : Sums()) (*sum)[i] = 0.0;
+  for (int dv = -radius_; dv <= radius_; ++dv) {
+    for (int du = -radius_; du <= radius_; ++du) {
+      const int ring = std::max(std::abs(du), std::abs(dv));
+      const double q = middle_[i] * Pixels(du, dv)[i];
+      if (q < least_[ring] || q > most_[ring]) continue;
+      s.n[i] += 1.0;
+      s.u[i] += du;
+      s.v[i] += dv;
+      s.uu[i] += du * du;
+      s.uv[i] += du * dv;
+      s.vv[i] += dv * dv;
+      s.q[i] += q;
+      s.uq[i] += du * q;
+      s.vq[i] += dv * q;
+      s.qq[i] += q * q;
     }
   }
 }
