@@ -223,6 +223,8 @@ void Foreground::Exchange(CheckpointArchive* archive) {
   archive->Column("place", &cells, [](Cell& c) -> Eigen::Vector3d& { return c.place; });
   archive->Column("now", &cells, [](Cell& c) -> Eigen::Vector3d& { return c.now; });
   archive->Column("age", &cells, [](Cell& c) -> int& { return c.age; });
+  has_foreground_ =
+      std::any_of(cells.begin(), cells.end(), [](const Cell& c) { return c.in_foreground(); });
   archive->Leave();
 }
 

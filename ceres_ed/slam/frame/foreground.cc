@@ -159,33 +159,26 @@ class PartCollector {
 
 }  // namespace
 
-// Returns, for each cell, what the last frame knows of its surface: a cell that was not foreground,
-// or was elsewhere, has the age -1.
-Image<Foreground::Cell> Foreground::Continue(const CameraPose& camera_from_map,
-                                             const ObservedSurface& surface) const {
-  Image<Cell> cells(surface.width(), surface.height());
-  if (cells_.empty()) return cells;
-  for (int j = 0; j < surface.height(); ++j) {
-    for (int i = 0; i < surface.width(); ++i) {
-      const SurfacePatch& patch = surface.patch(i, j);
-      if (!patch.valid()) continue;
-      const Eigen::Vector3d place = camera_from_map.ApplyInverse(patch.point);
-      const Eigen::Vector3d before = camera_from_map_ * place;
-      if (!(before.z() > 0.0)) continue;
-      const Eigen::Vector2d pixel = camera_.Project(before);
-      if (!InPicture(camera_, pixel)) continue;
-      const Cell& last = cells_(NearestPixel(pixel.x()) / cell_, NearestPixel(pixel.y()) / cell_);
-      if (!last.in_foreground() || (last.now - place).norm() > kSameSurface) continue;
-      Cell& cell = cells(i, j);
-      cell.age = last.age + 1;
-      cell.place = last.place;
-      if (std::abs((camera_from_map * last.place).z() - patch.point.z()) > kStandsStill) {
-        cell.age = 0;
-        cell.place = place;
-      }
-    }
+// Returns what the last frame knows of the surface of a valid patch: if it was not foreground, or
+// was elsewhere, its age is -1.
+Foreground::Cell Foreground::Continue(const CameraPose& camera_from_map,
+                                      const SurfacePatch& patch) const {
+  Cell cell;
+  if (!has_foreground_) return cell;
+  const Eigen::Vector3d place = camera_from_map.ApplyInverse(patch.point);
+  const Eigen::Vector3d before = camera_from_map_ * place;
+  if (!(before.z() > 0.0)) return cell;
+  const Eigen::Vector2d pixel = camera_.Project(before);
+  if (!InPicture(camera_, pixel)) return cell;
+  const Cell& last = cells_(NearestPixel(pixel.x()) / cell_, NearestPixel(pixel.y()) / cell_);
+  if (!last.in_foreground() || (last.now - place).norm() > kSameSurface) return cell;
+  cell.age = last.age + 1;
+  cell.place = last.place;
+  if (std::abs((camera_from_map * last.place).z() - patch.point.z()) > kStandsStill) {
+    cell.age = 0;
+    cell.place = place;
   }
-  return cells;
+  return cell;
 }
 
 double Foreground::Remove(const std::vector<VisiblePoint>& visible,
@@ -195,21 +188,22 @@ double Foreground::Remove(const std::vector<VisiblePoint>& visible,
   const bool first = visible.empty() && cells_.empty();
   const Image<Place> places = PlacesOf(visible, *surface, noise);
   const auto on_map = std::count(places.pixels().begin(), places.pixels().end(), Place::kOnMap);
-  Image<Cell> known = Continue(camera_from_map, *surface);
-  Image<Cell> cells(surface->width(), surface->height());
   PartCollector parts(*surface, places, kJump + noise);
-  std::vector<std::pair<int, int>> removed;
+  std::vector<std::pair<std::pair<int, int>, Cell>> removed;
   for (int v = 0; v < surface->height(); ++v) {
     for (int u = 0; u < surface->width(); ++u) {
       if (!parts.IsNew(u, v)) continue;
       const Part part = parts.Collect(u, v);
       const auto size = static_cast<double>(part.cells.size());
       if (size < kFewestCells || !part.HasJumps()) continue;
+      std::vector<Cell> known;
+      known.reserve(part.cells.size());
+      for (const auto& [i, j] : part.cells) {
+        known.push_back(Continue(camera_from_map, surface->patch(i, j)));
+      }
       // Is there evidence that it is foreground?
-      const auto continued =
-          std::count_if(part.cells.begin(), part.cells.end(), [&](const auto& c) {
-            return known(c.first, c.second).in_foreground();
-          });
+      const auto continued = std::count_if(
+          known.begin(), known.end(), [](const Cell& cell) { return cell.in_foreground(); });
       const bool is_foreground =
           first ? part.at_picture_border && size <= kLargestAtStart * surface->num_valid()
                 : part.before_map <= on_map &&
@@ -218,8 +212,9 @@ double Foreground::Remove(const std::vector<VisiblePoint>& visible,
       // Has it stood still for long?
       std::vector<double> ages;
       ages.reserve(part.cells.size());
-      for (const auto& [i, j] : part.cells) {
-        Cell& cell = known(i, j);
+      for (std::size_t k = 0; k < known.size(); ++k) {
+        const auto& [i, j] = part.cells[k];
+        Cell& cell = known[k];
         cell.now = camera_from_map.ApplyInverse(surface->patch(i, j).point);
         if (!cell.in_foreground()) {
           cell.age = 0;
@@ -228,13 +223,16 @@ double Foreground::Remove(const std::vector<VisiblePoint>& visible,
         ages.push_back(cell.age);
       }
       if (Median(std::move(ages)) >= kSettledAge) continue;
-      for (const auto& [i, j] : part.cells) cells(i, j) = known(i, j);
-      removed.insert(removed.end(), part.cells.begin(), part.cells.end());
+      for (std::size_t k = 0; k < known.size(); ++k) removed.emplace_back(part.cells[k], known[k]);
     }
   }
   const double share = static_cast<double>(removed.size()) / std::max(1, surface->num_valid());
-  for (const auto& [i, j] : removed) surface->Remove(i, j);
-  cells_ = std::move(cells);
+  if (has_foreground_ || cells_.empty()) cells_ = Image<Cell>(surface->width(), surface->height());
+  for (const auto& [at, cell] : removed) {
+    surface->Remove(at.first, at.second);
+    cells_(at.first, at.second) = cell;
+  }
+  has_foreground_ = !removed.empty();
   cell_ = surface->cell();
   camera_from_map_ = camera_from_map;
   return share;

@@ -49,13 +49,14 @@ class Foreground {
     bool in_foreground() const { return age >= 0; }
   };
 
-  Image<Cell> Continue(const CameraPose& camera_from_map, const ObservedSurface& surface) const;
+  Cell Continue(const CameraPose& camera_from_map, const SurfacePatch& patch) const;
 
   PinholeCamera camera_;
   int cell_ = 1;
   CameraPose camera_from_map_;
-  // The cells of the last frame.
+  // The cells of the last frame, and whether any of them is foreground.
   Image<Cell> cells_;
+  bool has_foreground_ = false;
 };
 
 }  // namespace ceres_ed
