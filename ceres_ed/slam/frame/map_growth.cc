@@ -145,12 +145,33 @@ bool PlacePoint(const DeformableMap& map,
   return true;
 }
 
+// Returns whether one of some places is nearer to a point than a node to which it is bound.
+bool IsNearest(const std::vector<Eigen::Vector3d>& places,
+               const VisiblePoint& seen,
+               const DeformableMap& map) {
+  const PointBinding bound = map.binding(seen.slot);
+  if (bound.size < map.neighbors()) return true;
+  double farthest = 0.0;
+  for (int k = 0; k < bound.size; ++k) {
+    farthest = std::max(farthest, (map.NodePosition(bound.nodes[k]) - seen.in_map).squaredNorm());
+  }
+  return std::any_of(places.begin(), places.end(), [&](const Eigen::Vector3d& place) {
+    return (place - seen.in_map).squaredNorm() < farthest;
+  });
+}
+
 // Binds points near new nodes again, because they were bound before the new nodes existed.
 void RebindNear(int first_new_node,
                 const std::vector<VisiblePoint>& visible,
                 PlaceBinder* binder,
                 DeformableMap* map) {
+  std::vector<Eigen::Vector3d> new_nodes;
+  for (int node = first_new_node; node < map->graph().num_nodes(); ++node) {
+    new_nodes.push_back(map->NodePosition(node));
+  }
   for (const VisiblePoint& seen : visible) {
+    // Most points are far from all new nodes.
+    if (!IsNearest(new_nodes, seen, *map)) continue;
     const PointBinding fresh = MapPoints::Kept(binder->Bind(seen.in_map, map->neighbors()));
     const bool touches_new = std::any_of(
         fresh.nodes, fresh.nodes + fresh.size, [&](int node) { return node >= first_new_node; });
