@@ -148,6 +148,99 @@ class LevelTemplate {
   bool valid_ = false;
 };
 
+// The correlations of the coarse template with a picture, with its middle on a grid of pixels. The
+// picture is sampled between pixels at the same fractions for all places of the grid, so that each
+// pixel of the template is compared with all places at once.
+class GridCorrelation {
+ public:
+  // Computes the correlations at whole pixels around `middle` that are at most `steps` <=
+  // kMostSteps away in each direction. Those where a part of the template lies outside of the
+  // picture are -1.
+  GridCorrelation(const ThinSamples& wanted,
+                  ImageView<std::uint8_t> image,
+                  const Eigen::Matrix2d& now_from_then,
+                  const Eigen::Vector2d& middle,
+                  int steps)
+      : side_(2 * steps + 1) {
+    values_.fill(-1.0f);
+    const Eigen::Vector2d reach = kRadius * now_from_then.cwiseAbs().rowwise().sum();
+    const Range i = FindRange(middle.x(), reach.x(), image.width(), steps);
+    const Range j = FindRange(middle.y(), reach.y(), image.height(), steps);
+    for (int row = j.begin; row < j.end; ++row) {
+      const Eigen::Vector2d start = middle + Eigen::Vector2d(i.begin - steps, row - steps);
+      CorrelateRow(wanted, image, now_from_then, start, i.end - i.begin, &At(i.begin, row));
+    }
+  }
+
+  float& At(int i, int j) { return values_[j * side_ + i]; }
+
+  static constexpr int kMostSteps = 8;
+
+ private:
+  struct Range {
+    int begin = 0;
+    int end = 0;
+  };
+  static constexpr int kMostSide = 2 * kMostSteps + 1;
+  using Row = Eigen::Array<float, kMostSide, 1>;
+
+  // Returns the places at which the template reaches over no border of the picture.
+  static Range FindRange(double middle, double reach, int size, int steps) {
+    const double first = std::ceil(reach - middle);
+    const double last = std::ceil(size - 1.001 - reach - middle) - 1.0;
+    Range range;
+    if (!(first <= steps && last >= -steps)) return range;
+    range.begin = static_cast<int>(std::max<double>(first, -steps)) + steps;
+    range.end = static_cast<int>(std::min<double>(last, steps)) + steps + 1;
+    return range;
+  }
+
+  // Computes the correlations at `count` pixels in a row.
+  static void CorrelateRow(const ThinSamples& wanted,
+                           ImageView<std::uint8_t> image,
+                           const Eigen::Matrix2d& now_from_then,
+                           const Eigen::Vector2d& start,
+                           int count,
+                           float* correlations) {
+    // Grey values are taken relative to this one, because their squares must not become too large.
+    constexpr float kGray = 128.0f;
+    Row sum = Row::Zero(), squares = Row::Zero(), product = Row::Zero(), value;
+    int k = 0;
+    for (int y = -kRadius; y <= kRadius; y += 2) {
+      for (int x = -kRadius; x <= kRadius; x += 2, ++k) {
+        const Eigen::Vector2d at = start + now_from_then * Eigen::Vector2d(x, y);
+        const int u = static_cast<int>(at.x());
+        const int v = static_cast<int>(at.y());
+        const auto a = static_cast<float>(at.x() - u);
+        const auto b = static_cast<float>(at.y() - v);
+        const std::uint8_t* row =
+            image.pixels() + static_cast<std::ptrdiff_t>(v) * image.width() + u;
+        const std::uint8_t* next = row + image.width();
+        for (int i = 0; i < count; ++i) {
+          const float above = row[i] + a * static_cast<float>(row[i + 1] - row[i]);
+          const float below = next[i] + a * static_cast<float>(next[i + 1] - next[i]);
+          value[i] = above + b * (below - above) - kGray;
+        }
+        for (int i = 0; i < count; ++i) {
+          sum[i] += value[i];
+          squares[i] += value[i] * value[i];
+          product[i] += value[i] * wanted[k];
+        }
+      }
+    }
+    constexpr auto kSize = static_cast<float>(ThinSamples::SizeAtCompileTime);
+    for (int i = 0; i < count; ++i) {
+      const float variance = (squares[i] - sum[i] * sum[i] / kSize) / kSize;
+      if (variance < kLeastContrast * kLeastContrast) continue;
+      // The sum of what is wanted is 0.
+      correlations[i] = product[i] / std::sqrt(variance * kSize);
+    }
+  }
+
+  int side_;
+  std::array<float, kMostSide * kMostSide> values_;
+};
+
 // Moves `pixel` of the half resolution to the point of a grid that looks most like the template.
 // Returns false if another place looks nearly as much like it, as in a pattern that repeats.
 bool SearchGrid(const LevelTemplate& coarse,
@@ -158,27 +251,42 @@ bool SearchGrid(const LevelTemplate& coarse,
   // Places at least so many pixels apart are different places.
   constexpr int kApart = 4;
   constexpr float kNearlyAsGood = 0.8f;
-  const int steps = static_cast<int>(std::ceil(0.5 * reach));
+  const int steps = std::min(static_cast<int>(std::ceil(0.5 * reach)), GridCorrelation::kMostSteps);
   const int side = 2 * steps + 1;
-  const Eigen::Vector2d middle = *pixel;
-  const ThinSamples wanted = coarse.Thin();
-  ThinSamples samples;
-  std::vector<float> correlations(static_cast<std::size_t>(side) * side, -1.0f);
-  int best = -1;
-  for (int k = 0; k < side * side; ++k) {
-    const Eigen::Vector2d at = middle + Eigen::Vector2d(k % side - steps, k / side - steps);
-    if (!Look<2>(image, at, now_from_then, &samples)) continue;
-    correlations[k] = (samples * wanted).sum();
-    if (best >= 0 && correlations[k] <= correlations[best]) continue;
-    best = k;
-    *pixel = at;
+  GridCorrelation correlation(coarse.Thin(), image, now_from_then, *pixel, steps);
+  int best_i = 0, best_j = 0;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      if (correlation.At(i, j) <= correlation.At(best_i, best_j)) continue;
+      best_i = i;
+      best_j = j;
+    }
   }
-  if (best < 0) return false;
-  for (int k = 0; k < side * side; ++k) {
-    const bool apart =
-        std::abs(k % side - best % side) >= kApart || std::abs(k / side - best / side) >= kApart;
-    if (apart && correlations[k] > kNearlyAsGood * correlations[best]) return false;
+  const float best = correlation.At(best_i, best_j);
+  if (best <= -1.0f) return false;
+  for (int j = 0; j < side; ++j) {
+    for (int i = 0; i < side; ++i) {
+      const bool apart = std::abs(i - best_i) >= kApart || std::abs(j - best_j) >= kApart;
+      if (apart && correlation.At(i, j) > kNearlyAsGood * best) return false;
+    }
   }
+  *pixel += Eigen::Vector2d(best_i - steps, best_j - steps);
+  return true;
+}
+
+// Moves `pixel` to where the template is found at half resolution, which may be `reach` away.
+bool FindCoarsely(const PatchTemplate& patch,
+                  ImageView<std::uint8_t> image,
+                  const Eigen::Matrix2d& now_from_then,
+                  double reach,
+                  Eigen::Vector2d* pixel) {
+  const LevelTemplate coarse(patch, 1);
+  // What shows nothing at half resolution may still be seen at the full one, near the start.
+  if (!coarse.valid()) return true;
+  Eigen::Vector2d at = *pixel / 2.0;
+  if (!SearchGrid(coarse, image, now_from_then, reach, &at)) return false;
+  if (coarse.Refine(image, now_from_then, &at) < 0.0) return false;
+  *pixel = 2.0 * at;
   return true;
 }
 
@@ -213,13 +321,7 @@ PatchMatch FindPatch(const PatchTemplate& patch,
   const LevelTemplate fine(patch, 0);
   if (!fine.valid()) return match;
   Eigen::Vector2d pixel = start;
-  const LevelTemplate coarse(patch, 1);
-  if (reach > 0.0 && coarse.valid()) {
-    pixel /= 2.0;
-    if (!SearchGrid(coarse, picture[1], now_from_then, reach, &pixel)) return match;
-    if (coarse.Refine(picture[1], now_from_then, &pixel) < 0.0) return match;
-    pixel *= 2.0;
-  }
+  if (reach > 0.0 && !FindCoarsely(patch, picture[1], now_from_then, reach, &pixel)) return match;
   match.correlation = fine.Refine(picture[0], now_from_then, &pixel);
   match.pixel = pixel;
   return match;

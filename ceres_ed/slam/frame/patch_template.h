@@ -40,8 +40,8 @@ struct PatchMatch {
 };
 
 // Searches for `patch` in a picture around `start`, first at half resolution on a grid that reaches
-// `reach` >= 0 pixels to each side (0: not at all), then by the inverse compositional method (Baker
-// and Matthews 2004) at both resolutions. `now_from_then` maps offsets in the picture of the
+// `reach` in [0, 16] pixels to each side (0: not at all), then by the inverse compositional method
+// (Baker and Matthews 2004) at both resolutions. `now_from_then` maps offsets in the picture of the
 // template to offsets in this one.
 PatchMatch FindPatch(const PatchTemplate& patch,
                      const GrayLevels& picture,
