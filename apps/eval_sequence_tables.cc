@@ -120,7 +120,13 @@ std::string DepthTable(const std::vector<DepthAgreement>& frames) {
   table += "mean over frames              " + Millimetres(median.mean) + Millimetres(p95.mean);
   table +=
       "\nmedian over frames            " + Millimetres(median.median) + Millimetres(p95.median);
-  return table + "\n";
+  const AcrossFrames far = SummarizeFarShare(frames);
+  return table + Line(
+                     "\nfarther than %g mm from the depth: %.2f %% of the measured points in the "
+                     "mean over frames, %.2f %% in the worst one\n",
+                     kMillimetresPerMetre * SequenceEvaluationOptions().far_residual,
+                     100.0 * far.mean,
+                     100.0 * far.max);
 }
 
 std::string TrackText(const TrackEvaluation& tracks) {

@@ -10,6 +10,7 @@ one (A B A B ...), so both meet the same state of the machine. One run follows a
   surface  distance of visible map points to the true surface: median of a frame, median of the frames
   seen     tracking error: distance of a map point to the place of its tissue; mean of points in view
   worst    the largest of these means of a frame
+  after    the mean of these means from frame 60 on, when what covers a hard sequence is over
   hidden   the same for points out of view or behind others
   map      99th percentile of the distances of all map points to the true surface, last live cloud
   camera   rms error of the camera's position (camera and tissue may exchange motion)
@@ -18,12 +19,17 @@ one (A B A B ...), so both meet the same state of the machine. One run follows a
   plane    rms distance of inliers to the planes of the depth image, median of the frames
   static   residual of a pair of frames in which nothing moves, for --static-residual: see below
   depth    |z - depth| at the pixel, median of a frame, mean of the frames; includes the sensor's noise
+  far      share of the map points in view that lie more than 3 mm from that depth, %; mean of the frames
+  length   how much longer or shorter an object becomes that a mask outlines, %; the worst frame
   ms, p95  time of a frame, t_total of frames.csv: without reading, decoding and writing
   late     the time of a frame in the last quarter over that in the second
   cpu      CPU time of the whole program for a frame; for use on a machine that is busy
   observe ... grow   medians of the stages, ms
   MB       peak memory of ed_slam
   nodes, points   of the map at the end; pr: nodes with data, active: moved by Level I (medians)
+Below the table, hard sequences are compared with the same frames without the hardship (REFERENCES of
+hard_sequences.py), if these are in the table, too.
+
 Lengths are in millimetres. Times are medians over --runs; errors are those of the first run.
 
 --static-residual: ed_slam places the map of frame k alone on frame k + 1, with rotation and
@@ -49,7 +55,8 @@ from pathlib import Path
 
 from bench_tables import (PAGE, add_page_option, cell, check_marks, print_table, ratio_row, table,
                           write_between)
-from hard_sequences import hard_sequences
+from hard_sequences import REFERENCES, hard_sequences
+from object_length import worst_length_change
 from program_runs import PROGRAM, ROOT, RunFailed, Variant, default_folders, wrong_call
 from sequence_runs import (CACHE, SCENES, STAGES, counts_of, digest, errors_of, evaluate,
                            find_sequences, read_frames, simulate, static_residual, times_of, track)
@@ -61,10 +68,12 @@ TIMES = ("ms", "ms_p95", *(f"ms_{stage}" for stage in STAGES), "cpu", "wall_s", 
 COLUMNS = [
     ("sequence", "sequence", None), ("frames", "frames", 0), ("relocalized", "reloc", 0),
     ("lost", "lost", 0), ("skipped", "skipped", 0), ("surface_seen", "surface", 3),
-    ("tracking_seen", "seen", 3), ("seen_worst", "worst", 2), ("tracking_hidden", "hidden", 3), ("map_p99", "map", 2),
+    ("tracking_seen", "seen", 3), ("seen_worst", "worst", 2), ("seen_late", "after", 3),
+    ("tracking_hidden", "hidden", 3), ("map_p99", "map", 2),
     ("camera", "camera", 2),
     ("track_px", "px", 2), ("moved_px", "moved", 1), ("tracks", "tracks", None), ("rms_plane", "plane", 3),
-    ("static", "static", 3), ("depth", "depth", 3), ("ms", "ms", 1), ("ms_p95", "p95", 1),
+    ("static", "static", 3), ("depth", "depth", 3), ("far", "far", 2),
+    ("length", "length", 1), ("ms", "ms", 1), ("ms_p95", "p95", 1),
     ("late_ratio", "late", 2), ("cpu", "cpu", 1), *((f"ms_{stage}", stage, 1) for stage in STAGES), ("memory_mb", "MB", 0),
     ("nodes", "nodes", 0), ("pr", "pr", 0), ("active", "active", 0), ("points", "points", 0),
 ]
@@ -163,6 +172,7 @@ def bench_sequence(variants, sequence, options, work):
             row[key] = statistics.median(values) if values else None
         row.update(errors_of(evaluate(options.bin / "ed_eval", sequence,
                                       work / f"{variant.name}_False")))
+        row["length"] = worst_length_change(sequence.folder, work / f"{variant.name}_False")
         if sequence.name in options.static_residual.split(","):
             row["static"] = static_residual(variant, sequence, work)
         rows.append(row)
@@ -183,6 +193,20 @@ def static_note(row):
     return (f"`{row['sequence']}`: a pair of frames where nothing moves leaves "
             f"{row['static']:.3f} mm to the planes; the sequence {row['rms_plane']:.3f} mm, "
             f"{row['rms_plane'] / row['static']:.2f} times that.")
+
+
+def reference_notes(rows):
+    """Returns a line for each hard sequence whose reference is in the table, too."""
+    known = {(row["sequence"], row["variant"]): row for row in rows}
+    notes = []
+    for row in rows:
+        reference, key = REFERENCES.get(row["sequence"], (None, None))
+        other = known.get((reference, row["variant"]))
+        if other and row[key] and other[key]:
+            heading = next(h for k, h, _ in COLUMNS if k == key)
+            notes.append(f"{row['sequence']}: {heading} {row[key] / other[key]:.2f} times that of "
+                         f"{reference}")
+    return notes
 
 
 def save(options, rows):
@@ -221,6 +245,8 @@ def main():
     for row in rows:
         if row["static"]:
             print(static_note(row).replace("`", ""))
+    for note in reference_notes(rows):
+        print(note)
     if failed and options.page:
         print(f"{PROGRAM}: a run failed, {options.page} stays as it is", file=sys.stderr)
         options.page = None

@@ -22,6 +22,16 @@ STILL = ["--period=1e9"]
 COVERED = range(30, 60)
 BLANK = range(40, 50)
 JUMP = range(40, 58)
+STEPS = (3, 5)
+# With what a hard sequence is compared, and in which figure (a key of COLUMNS): scenes at rest with
+# a tracker that knows that they are, large steps with every frame, cover with none.
+REFERENCES = {
+    **{f"still_{scene}": (f"still_{scene}_rigid", "camera") for scene in ORGANS},
+    **{f"step{step}_{scene}": (f"step1_{scene}", "tracking_seen")
+       for scene in ORGANS for step in STEPS},
+    **{name: ("plain_heart", "seen_late")
+       for name in ("cover45_heart", "cover60_heart", "blank_heart", "holes_heart")},
+}
 
 
 def write_mask(path, rows):
@@ -119,7 +129,7 @@ def hard_sequences(ed_simulate, cache, fresh=False):
                                                              f"still_{scene}")
         makers[f"still_{scene}_rigid"] = lambda scene=scene: organ(
             scene, [*SHORT, *STILL], f"still_{scene}_rigid", ["--rigid"])
-        for step in (3, 5):
+        for step in (1, *STEPS):
             makers[f"step{step}_{scene}"] = lambda scene=scene, step=step: organ(
                 scene, ORBIT, f"step{step}_{scene}", [f"--step={step}", "--last=209"])
         makers[f"jump_{scene}"] = lambda scene=scene: covered(

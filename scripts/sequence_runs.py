@@ -12,6 +12,8 @@ from program_runs import ROOT, RunFailed, run, wrong_call
 CACHE = ROOT / "build/sequences"
 STAGES = ("observe", "features", "associate", "camera", "level1", "level2", "warp", "grow")
 FOLLOWED = ("tracked", "relocalized")
+# The first frame of the figure seen_late: what covers or breaks a hard sequence is over by then.
+LATE_FROM = 60
 # A sheet that rises under a still camera: with nothing else in view no one could tell which of
 # the two has moved.
 STILL_CAMERA = ["--camera=fixed"]
@@ -25,6 +27,14 @@ class Sequence:
         self.name = name
         self.folder = Path(folder)
         self.flags = list(flags)
+        if outlines_object(self.folder):
+            self.flags.append("--masks=false")
+
+
+def outlines_object(folder):
+    """Whether the masks outline an object by which a result is judged, and ed_slam may not see them:
+    those of a sequence whose authors outlined it."""
+    return (Path(folder) / "mask_authors").is_dir()
 
 
 def is_sequence(folder):
@@ -149,12 +159,17 @@ def errors_of(evaluation):
                 figures[name] = 1e3 * summary[figure][across]
         if summary["tracking_seen_mean"]:
             figures["seen_worst"] = 1e3 * summary["tracking_seen_mean"]["max"]
+        late = [frame["tracking_seen"]["mean"] for frame in evaluation["truth"]["frames"]
+                if frame["frame"] >= LATE_FROM and frame["tracking_seen"]]
+        if late:
+            figures["seen_late"] = 1e3 * statistics.mean(late)
         figures["map_p99"] = 1e3 * evaluation["truth"]["frames"][-1]["surface_all"]["p99"]
     if evaluation["camera"]:
         camera = evaluation["camera"]["from_first_frame"]
         figures["camera"] = 1e3 * camera["translation_rmse"]
     if evaluation["depth"]:
         figures["depth"] = 1e3 * evaluation["depth"]["summary"]["residual_median"]["mean"]
+        figures["far"] = 100.0 * evaluation["depth"]["summary"]["far_share"]["mean"]
     tracks = evaluation["tracks_2d"]
     if tracks and tracks["error"]:
         figures.update(track_px=tracks["error"]["p50"],

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/geometry/visibility_buffer.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
@@ -26,6 +27,7 @@ bool SequenceEvaluationOptions::IsValid(std::string* error) const {
   };
   if (!(max_birth_offset > 0.0)) return refuse("max_birth_offset", max_birth_offset);
   if (!(visibility_tolerance > 0.0)) return refuse("visibility_tolerance", visibility_tolerance);
+  if (!(far_residual > 0.0)) return refuse("far_residual", far_residual);
   return true;
 }
 
@@ -126,6 +128,11 @@ DepthAgreement CompareWithDepth(const PinholeCamera& camera,
   }
   agreement.measured = static_cast<int>(residuals.size());
   agreement.residual = SummarizeAny(residuals);
+  if (residuals.empty()) return agreement;
+  const auto far = std::count_if(residuals.begin(), residuals.end(), [&](double residual) {
+    return residual > options.far_residual;
+  });
+  agreement.far_share = static_cast<double>(far) / static_cast<double>(residuals.size());
   return agreement;
 }
 

@@ -21,7 +21,7 @@
 namespace ceres_ed {
 
 // Options of the evaluation. Lengths are shares of a point's own depth, so that they do not depend
-// on the unit.
+// on the unit, unless they are in metres.
 struct SequenceEvaluationOptions {
   // A map point that was farther than this from the true surface when it was created belongs to no
   // tissue point: its tracking error is unknown, but its surface error counts. > 0; default 0.007,
@@ -31,6 +31,9 @@ struct SequenceEvaluationOptions {
   // value is larger than the error of a map and smaller than an organ. > 0; default 0.03, which is
   // 8 mm at 0.27 m.
   double visibility_tolerance = 0.03;
+  // A point that is farther than this from the depth at its pixel is far from it. In metres, > 0;
+  // default 0.003.
+  double far_residual = 0.003;
 
   // Returns false, with the value and what was expected in `error`, unless all values are positive.
   bool IsValid(std::string* error) const;
@@ -90,8 +93,11 @@ struct DepthAgreement {
   int seen = 0;
   // The number of these points whose pixel has a depth.
   int measured = 0;
-  // z - depth| at the pixel, along the optical axis, in metres; nothing if no point is measured.
+  // |z - depth| at the pixel, along the optical axis, in metres; nothing if no point is measured.
   std::optional<DistanceStatistics> residual;
+  // The share of the measured points whose residual is more than `far_residual` of the options;
+  // nothing if no point is measured.
+  std::optional<double> far_share;
 };
 
 // Returns how well `snapshot` agrees with `depth`. CHECKs that the image has the camera's size.

@@ -22,6 +22,13 @@ AcrossFrames SummarizeDepth(const std::vector<DepthAgreement>& frames,
   return SummarizeFrames(values);
 }
 
+AcrossFrames SummarizeFarShare(const std::vector<DepthAgreement>& frames) {
+  std::vector<std::optional<double>> values;
+  values.reserve(frames.size());
+  for (const DepthAgreement& frame : frames) values.push_back(frame.far_share);
+  return SummarizeFrames(values);
+}
+
 EndPointError CompareEndPoints(int points_at_start,
                                const std::vector<Eigen::Vector2d>& predicted,
                                const std::vector<Eigen::Vector2d>& given) {

@@ -87,6 +87,8 @@ AcrossFrames SummarizeTruth(const std::vector<FrameTruthError>& frames, const Tr
 // of each frame.
 AcrossFrames SummarizeDepth(const std::vector<DepthAgreement>& frames,
                             double DistanceStatistics::*statistic);
+// Returns the summary, over the frames, of the share of points that are far from the depth.
+AcrossFrames SummarizeFarShare(const std::vector<DepthAgreement>& frames);
 
 }  // namespace ceres_ed
 

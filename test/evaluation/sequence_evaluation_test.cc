@@ -1,5 +1,7 @@
 #include "ceres_ed/evaluation/sequence_evaluation.h"
 
+#include <ceres_ed/evaluation/sequence_figures.h>
+
 #include <cmath>
 #include <optional>
 #include <string>
@@ -179,6 +181,23 @@ TEST(CompareWithDepth, MeasuresAlongTheAxisWhereThereIsADepth) {
   EXPECT_EQ(agreement.measured, 80);
   EXPECT_NEAR(agreement.residual->p50, 0.003, kRound);
   EXPECT_NEAR(agreement.residual->max, 0.003, kRound);
+}
+
+TEST(CompareWithDepth, CountsTheShareOfPointsFarFromTheDepth) {
+  LiveSnapshot snapshot = PerfectMap(0);
+  for (int i = 0; i < 9; ++i) snapshot.points[i].z() -= 0.004;
+  for (int i = 9; i < 20; ++i) snapshot.points[i].z() += 0.002;
+  SequenceEvaluationOptions options;
+  const DepthImage depth(100, 100, 1.0f);
+  const DepthAgreement agreement = CompareWithDepth(MakeCamera(), snapshot, depth, options);
+  EXPECT_DOUBLE_EQ(*agreement.far_share, 9.0 / 81.0);
+  options.far_residual = 0.001;
+  EXPECT_DOUBLE_EQ(*CompareWithDepth(MakeCamera(), snapshot, depth, options).far_share,
+                   20.0 / 81.0);
+  const AcrossFrames across = SummarizeFarShare({agreement, DepthAgreement()});
+  EXPECT_EQ(across.frames, 1);
+  EXPECT_DOUBLE_EQ(across.max, 9.0 / 81.0);
+  EXPECT_FALSE(CompareWithDepth(MakeCamera(), snapshot, DepthImage(100, 100, 0.0f)).far_share);
 }
 
 TEST(CompareWithDepth, LeavesOutWhatTheMapItselfHides) {

@@ -68,18 +68,21 @@ ordered_json DepthReport(const std::vector<DepthAgreement>& agreements) {
   if (agreements.empty()) return nullptr;
   ordered_json frames = ordered_json::array();
   for (const DepthAgreement& agreement : agreements) {
-    frames.push_back({{"frame", agreement.frame},
-                      {"points", agreement.points},
-                      {"seen", agreement.seen},
-                      {"measured", agreement.measured},
-                      {"residual", StatisticsReport(agreement.residual)}});
+    frames.push_back(
+        {{"frame", agreement.frame},
+         {"points", agreement.points},
+         {"seen", agreement.seen},
+         {"measured", agreement.measured},
+         {"residual", StatisticsReport(agreement.residual)},
+         {"far_share", agreement.far_share ? ordered_json(*agreement.far_share) : nullptr}});
   }
   const auto across = [&agreements](double DistanceStatistics::*figure) {
     return AcrossReport(SummarizeDepth(agreements, figure));
   };
   return {{"summary",
            {{"residual_median", across(&DistanceStatistics::p50)},
-            {"residual_p95", across(&DistanceStatistics::p95)}}},
+            {"residual_p95", across(&DistanceStatistics::p95)},
+            {"far_share", AcrossReport(SummarizeFarShare(agreements))}}},
           {"frames", frames}};
 }
 
