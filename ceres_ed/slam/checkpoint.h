@@ -113,8 +113,7 @@ class CheckpointArchive {
 
   // Returns ok, or the first error that was found.
   const Status& status() const { return status_; }
-
- protected:
+  // Notes that a value that was loaded makes no sense. The message names it, and what was expected.
   void Fail(const std::string& message) {
     if (status_.ok()) status_ = Status::Error(message);
   }

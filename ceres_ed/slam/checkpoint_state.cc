@@ -101,7 +101,7 @@ void DeformableMap::ExchangePoints(CheckpointArchive* archive) {
   }
 }
 
-void CornerStore::Exchange(CheckpointArchive* archive) {
+void CornerStore::Exchange(int num_nodes, CheckpointArchive* archive) {
   archive->Enter("corners");
   ExchangeCount("count", &corners_, archive);
   for (Corner& f : corners_) {
@@ -132,14 +132,19 @@ void CornerStore::Exchange(CheckpointArchive* archive) {
   archive->Column("birth", &corners_, [](Corner& f) -> int& { return f.birth; });
   archive->Array("followed", &followed_);
   archive->Value("births", &births_);
-  if (!archive->saving()) Index();
   archive->Leave();
+  if (archive->saving()) return;
+  if (!AreBound(num_nodes)) {
+    archive->Fail("a corner is bound to a node that does not exist, expected nodes of the map");
+    corners_.clear();
+  }
+  Index();
 }
 
-void FeaturePoints::Exchange(CheckpointArchive* archive) {
+void FeaturePoints::Exchange(int num_nodes, CheckpointArchive* archive) {
   archive->Enter("features");
   tracker_.Exchange(archive);
-  corners_.Exchange(archive);
+  corners_.Exchange(num_nodes, archive);
   archive->Value("pictures", &frame_);
   archive->Value("continued", &num_continued_);
   archive->Leave();
@@ -241,7 +246,7 @@ void Tracker::Exchange(CheckpointArchive* archive) {
   gap_ = gap != 0;
   archive->Value("nodes_before_growth", &nodes_before_growth_);
   map_.Exchange(archive);
-  features_.Exchange(archive);
+  features_.Exchange(map_.graph().num_nodes(), archive);
   foreground_.Exchange(archive);
   memory_.Exchange(archive);
   levels_->Exchange(archive);

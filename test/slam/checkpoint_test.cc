@@ -1,5 +1,6 @@
 #include "ceres_ed/slam/checkpoint.h"
 
+#include <ceres_ed/slam/frame/corner_store.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/slam.h>
 
@@ -186,6 +187,25 @@ std::string SaveSlam(DeformableSlam* slam) {
   CheckpointWriter writer;
   slam->Exchange(&writer);
   return writer.TakeBytes();
+}
+
+TEST(Checkpoint, RefusesACornerOfANodeThatDoesNotExist) {
+  for (const int node : {-1, 5}) {
+    CornerStore saved;
+    Corner corner;
+    corner.num_nodes = 2;
+    corner.nodes[0] = 1;
+    corner.nodes[1] = node;
+    saved.Add(corner);
+    CheckpointWriter writer;
+    saved.Exchange(/*num_nodes=*/5, &writer);
+    const auto reader = CheckpointReader::Open(writer.TakeBytes());
+    ASSERT_TRUE(reader.ok());
+    CornerStore loaded;
+    loaded.Exchange(/*num_nodes=*/5, reader->get());
+    EXPECT_THAT((*reader)->status().message(), HasSubstr("a corner is bound to a node"));
+    EXPECT_EQ(loaded.num_corners(), 0);
+  }
 }
 
 TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {

@@ -49,6 +49,15 @@ void CornerStore::Remove(int slot) {
   free_.insert(slot);
 }
 
+bool CornerStore::AreBound(int num_nodes) const {
+  return std::all_of(corners_.begin(), corners_.end(), [&](const Corner& corner) {
+    return corner.num_nodes >= 0 && corner.num_nodes <= kMaxBoundNodes &&
+           std::all_of(corner.nodes, corner.nodes + corner.num_nodes, [&](int node) {
+             return node >= 0 && node < num_nodes;
+           });
+  });
+}
+
 void CornerStore::Index() {
   const auto outside = [&](int slot) { return slot < 0 || slot >= num_slots(); };
   followed_.erase(std::remove_if(followed_.begin(), followed_.end(), outside), followed_.end());

@@ -67,10 +67,12 @@ class CornerStore {
 
   // Returns the bytes on the heap that grow with the map.
   std::size_t HeapBytes() const;
-  // Saves all corners, or loads them and replaces the present ones.
-  void Exchange(CheckpointArchive* archive);
+  // Saves all corners, or loads them and replaces the present ones, of a map with `num_nodes`.
+  void Exchange(int num_nodes, CheckpointArchive* archive);
 
  private:
+  // Returns whether all corners are bound to nodes of a map with `num_nodes`.
+  bool AreBound(int num_nodes) const;
   // Computes what checkpoints do not store.
   void Index();
 

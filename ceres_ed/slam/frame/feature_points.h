@@ -81,7 +81,7 @@ class FeaturePoints {
   std::size_t HeapBytes() const { return corners_.HeapBytes(); }
 
   // Saves the corners and the picture, or loads them and replaces the present ones.
-  void Exchange(CheckpointArchive* archive);
+  void Exchange(int num_nodes, CheckpointArchive* archive);
 
  private:
   void Follow(const ObservedSurface& surface,
