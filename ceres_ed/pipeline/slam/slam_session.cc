@@ -32,15 +32,16 @@ std::string Fingerprint(const DepthImage& depth) {
   return std::to_string(hash);
 }
 
-// Returns the first line of `now` that differs from `before`, and the line that was expected.
+// Returns the first line of `now` that differs from `before`, and the line that was expected. The
+// texts have one flag in each line.
 std::string FirstDifference(const std::string& now, const std::string& before) {
   std::istringstream now_lines(now), before_lines(before);
   std::string a, b;
   while (std::getline(now_lines, a)) {
-    if (!std::getline(before_lines, b) || a != b) return a + ", expected " + b;
-    b.clear();
+    if (!std::getline(before_lines, b)) return a + ", expected no such flag";
+    if (a != b) return a + ", expected " + b;
   }
-  return "fewer flags, expected the same";
+  return std::getline(before_lines, b) ? "one flag less, expected " + b : "the same flags";
 }
 
 // Returns the pixels with a depth that is not that of a tool: they are 1, all others 0.
