@@ -171,11 +171,11 @@ void Tracker::Deform(const ObservedSurface& surface, bool catch_up, FrameReport*
 void Tracker::FollowTissue(const ObservedSurface& surface, bool catch_up, FrameReport* report) {
   if (!options_.rigid) Deform(surface, catch_up, report);
   Timer timer;
-  const double noise = std::max(surface.noise(), kLeastNoise);
-  features_.DropOutliers(map_, std::max(noise, kLeastFeatureDeviation));
+  features_.DropOutliers(map_, std::max(surface.noise(), kLeastFeatureDeviation));
   const AssociationResult association =
       Associate(visible_, map_.state().camera_from_map, surface, AssociationOptions());
-  Measure(association, noise, report);
+  Measure(association, surface.noise(), report);
+  points_before_ = report->points;
   report->times.associate += timer.Restart();
   Fuse(association, report->number, surface.noise());
   report->times.warp += timer.Restart();
@@ -194,6 +194,7 @@ void Tracker::Verify(const FrameObservations& observations, FrameReport* report)
 
 // Measures how well the deformed map lies on the surface.
 void Tracker::Measure(const AssociationResult& association, double noise, FrameReport* report) {
+  noise = std::max(noise, kLeastNoise);
   const double width = kInlierWidth * std::max(association.deviation, noise);
   double squares = 0.0;
   for (const Association& m : association.matches) {
@@ -208,7 +209,6 @@ void Tracker::Measure(const AssociationResult& association, double noise, FrameR
     if (map_.point(point.slot).IsTentative()) ++tentative;
   }
   report->tentative = tentative / std::max(1.0, static_cast<double>(visible_.size()));
-  points_before_ = report->points;
   report->rms_plane = std::sqrt(squares / std::max(1, report->inliers)) * unit_;
   report->features = features_.size();
 }

@@ -1,5 +1,6 @@
 #include "ceres_ed/slam/tracker.h"
 
+#include <ceres_ed/slam/frame/association.h>
 #include <ceres_ed/slam/frame/relocalization.h>
 #include <ceres_ed/util/timer.h>
 
@@ -125,9 +126,15 @@ FrameReport Tracker::Process(const SlamFrame& frame) {
   if (first) {
     report.status = FrameStatus::kInitialized;
     RemoveForeground(&surface, &report);
-  } else if (FindCamera(frame, surface, &report) && proving_ == 0) {
-    RemoveForeground(&surface, &report);
-    FollowTissue(surface, frame.catch_up, &report);
+  } else if (FindCamera(frame, surface, &report)) {
+    if (proving_ == 0) {
+      RemoveForeground(&surface, &report);
+      FollowTissue(surface, frame.catch_up, &report);
+    } else {
+      Measure(Associate(visible_, camera_from_map(), surface, AssociationOptions()),
+              surface.noise(),
+              &report);
+    }
   }
   gap_ = report.status == FrameStatus::kLost;
   if (!gap_ && proving_ == 0) Grow(frame, surface, &report);
@@ -182,9 +189,9 @@ void Tracker::RemoveForeground(ObservedSurface* surface, FrameReport* report) {
 }
 
 // Nodes that come into view are brought up to date before they are used.
-int Tracker::CatchUpInView(const CameraPose& camera_from_map) {
+void Tracker::CatchUpInView(const CameraPose& camera_from_map, FrameReport* report) {
   const std::vector<int> near = map_.NodesNearView(ViewVolume(camera_from_map, camera_));
-  return levels_->CatchUp(near, /*priors=*/nullptr, &map_).variable_nodes;
+  report->updated_pi += levels_->CatchUp(near, /*priors=*/nullptr, &map_).variable_nodes;
 }
 
 bool Tracker::FindCamera(const SlamFrame& frame,
@@ -193,7 +200,7 @@ bool Tracker::FindCamera(const SlamFrame& frame,
   Timer timer;
   const CameraPose before = map_.state().camera_from_map;
   CameraPose predicted = Predict(frame);
-  report->updated_pi += CatchUpInView(predicted);
+  CatchUpInView(predicted, report);
   report->times.level2 += timer.Restart();
   visible_ = FindVisible(map_, predicted, camera_, VisibilityOptions());
   // A camera goes on as before, or stands still after a jump.
@@ -219,7 +226,7 @@ bool Tracker::FindCamera(const SlamFrame& frame,
   CameraTrackerResult tracked =
       TrackCamera(visible_, matches, surface, predicted, CameraTrackerOptions());
   const bool anew = !continuous && features_.num_known() >= kFewestCorners;
-  if (anew) FindCameraAnew(surface, &matches, &tracked);
+  if (anew) FindCameraAnew(surface, &matches, &tracked, report);
   CameraPose found = tracked.camera_from_map;
   report->weak_directions = tracked.information.NumWeak();
   visible_ = FindVisible(map_, found, camera_, VisibilityOptions());
@@ -248,8 +255,9 @@ bool Tracker::FindCamera(const SlamFrame& frame,
 int Tracker::FindCorners(const ObservedSurface& surface,
                          const CameraPose& start,
                          std::vector<PointMatch>* matches,
-                         CameraTrackerResult* tracked) {
-  CatchUpInView(start);
+                         CameraTrackerResult* tracked,
+                         FrameReport* report) {
+  CatchUpInView(start, report);
   visible_ = FindVisible(map_, start, camera_, VisibilityOptions());
   features_.Clear();
   const int searched = features_.Recall(surface, map_, start);
@@ -265,14 +273,15 @@ int Tracker::FindCorners(const ObservedSurface& surface,
 // corners confirm none of them, there are no matches, and the pose is that of the depth.
 void Tracker::FindCameraAnew(const ObservedSurface& surface,
                              std::vector<PointMatch>* matches,
-                             CameraTrackerResult* tracked) {
+                             CameraTrackerResult* tracked,
+                             FrameReport* report) {
   const CameraTrackerResult by_depth = *tracked;
   std::vector<CameraPose> starts = {by_depth.camera_from_map};
   if (const auto place = features_.Recognize(surface, map_)) starts.push_back(*place);
   int best = 0;
   CameraPose best_start;
   const auto attempt = [&](const CameraPose& start) {
-    const int found = FindCorners(surface, start, matches, tracked);
+    const int found = FindCorners(surface, start, matches, tracked, report);
     if (found <= best) return;
     best = found;
     best_start = start;
@@ -285,7 +294,7 @@ void Tracker::FindCameraAnew(const ObservedSurface& surface,
                 .camera_from_map);
   }
   if (best > 0) {
-    FindCorners(surface, best_start, matches, tracked);
+    FindCorners(surface, best_start, matches, tracked, report);
     return;
   }
   *tracked = by_depth;
@@ -330,7 +339,7 @@ bool Tracker::Confirm(const ObservedSurface& surface,
   }
   *pose = other.camera_from_map;
   report->status = FrameStatus::kRelocalized;
-  report->updated_pi += CatchUpInView(*pose);
+  CatchUpInView(*pose, report);
   visible_ = FindVisible(map_, *pose, camera_, VisibilityOptions());
   features_.Clear();
   features_.Recall(surface, map_, *pose);

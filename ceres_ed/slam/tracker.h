@@ -58,18 +58,20 @@ class Tracker final : public DeformableSlam {
   int FindCorners(const ObservedSurface& surface,
                   const CameraPose& start,
                   std::vector<PointMatch>* matches,
-                  CameraTrackerResult* tracked);
+                  CameraTrackerResult* tracked,
+                  FrameReport* report);
   void FindCameraAnew(const ObservedSurface& surface,
                       std::vector<PointMatch>* matches,
-                      CameraTrackerResult* tracked);
+                      CameraTrackerResult* tracked,
+                      FrameReport* report);
   bool Confirm(const ObservedSurface& surface,
                const std::vector<PointMatch>& matches,
                const CameraPose& before,
                bool smooth,
                CameraPose* pose,
                FrameReport* report);
-  // Brings the nodes near the view up to date, and returns the number of nodes that were moved.
-  int CatchUpInView(const CameraPose& camera_from_map);
+  // Brings the nodes near the view up to date.
+  void CatchUpInView(const CameraPose& camera_from_map, FrameReport* report);
   FrameObservations FollowSeen(const ObservedSurface& surface, FrameReport* report);
   void FollowHidden(bool catch_up, FrameReport* report);
   void Deform(const ObservedSurface& surface, bool catch_up, FrameReport* report);
