@@ -3,7 +3,9 @@
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/util/statistics.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -180,6 +182,44 @@ TEST_F(FeaturePointsTest, DoNotDrift) {
 }
 
 // The camera turns about its axis and steps aside, where no prediction reaches.
+// Returns a picture whose right half has slid by `shift` pixels, and has a share of another look.
+ColorImage PictureOfAPulledHalf(double shift, double share) {
+  ColorImage picture = TexturedPicture({0.0, 0.0}, EvenLight);
+  const ColorImage before = TexturedPicture({shift, 0.0}, EvenLight);
+  const ColorImage after = TexturedPicture({shift, 0.0}, EvenLight, /*seed=*/2);
+  for (int v = 0; v < picture.height(); ++v) {
+    for (int u = picture.width() / 2; u < picture.width(); ++u) {
+      for (int c = 0; c < 3; ++c) {
+        picture(u, v)[c] = static_cast<std::uint8_t>(
+            std::lround((1.0 - share) * before(u, v)[c] + share * after(u, v)[c]));
+      }
+    }
+  }
+  return picture;
+}
+
+// Tissue that is pulled changes its look. Its corners are all that shows where it slides to, while
+// those of tissue that stays are worth no drift.
+TEST_F(FeaturePointsTest, StayWithTissueThatMovesAsNobodyForesawThoughItsLookChanges) {
+  const CameraPose& pose = map_.state().camera_from_map;
+  const auto followed = [&](double pixels_per_frame) {
+    FeaturePoints features(DenseFeatures());
+    features.Track(TexturedPicture({0, 0}, EvenLight), surface_, map_, pose);
+    features.Replenish(surface_, map_);
+    for (int k = 1; k <= 6; ++k) {
+      const double shift = pixels_per_frame * (2.0 + k);
+      features.Track(PictureOfAPulledHalf(shift, 0.13 * k), surface_, map_, pose);
+    }
+    const std::vector<PointMatch> matches = features.Matches(map_);
+    return std::count_if(matches.begin(), matches.end(), [](const PointMatch& m) {
+      return m.in_camera.x() > 10.0 * kPixel;
+    });
+  };
+  const auto pulled = followed(1.0);
+  EXPECT_GT(pulled, 30);
+  EXPECT_GT(pulled, 2 * followed(0.0));
+}
+
 TEST_F(FeaturePointsTest, RecognizeTheCamera) {
   const Eigen::Vector2d shift(35.0, 20.0);
   features_.Track(TexturedPicture(shift, EvenLight), surface_, map_, map_.state().camera_from_map);

@@ -27,6 +27,9 @@ constexpr double kRecognized = 0.85;
 // of frames in which it may be followed without being recognised.
 constexpr double kFollowReach = 6.0;
 constexpr int kMostBridged = 2;
+// A corner that is this far from where it was predicted moves in a way that the map does not know,
+// in pixels: more than the method of Lucas and Kanade drifts in these frames.
+constexpr double kUnforeseen = 2.0;
 // The most corners that are searched for in a frame, how often in vain before they are forgotten,
 // and the reach of the search in map units and in pixels.
 constexpr std::size_t kMostRecalled = 60;
@@ -48,6 +51,19 @@ constexpr int kRecognizeAmong = 2;
 constexpr double kContinuousShare = 0.5;
 // Two corners that are closer than this in a picture are one; pixels.
 constexpr double kSamePlace = 3.0;
+
+// Returns the median of how far the tracked corners are from where they were predicted: the error
+// of the predicted camera.
+Eigen::Vector2d CommonOffset(const std::vector<Eigen::Vector2d>& predicted,
+                             const std::vector<TrackedPixel>& tracked) {
+  std::vector<double> u, v;
+  for (std::size_t k = 0; k < tracked.size(); ++k) {
+    if (!tracked[k].found) continue;
+    u.push_back(tracked[k].pixel.x() - predicted[k].x());
+    v.push_back(tracked[k].pixel.y() - predicted[k].y());
+  }
+  return {Median(std::move(u)), Median(std::move(v))};
+}
 
 }  // namespace
 
@@ -120,7 +136,8 @@ void FeaturePoints::Follow(const ObservedSurface& surface,
 }
 
 // The method of Lucas and Kanade drifts, so that it may bridge only a few frames in which a corner
-// is not recognised.
+// is not recognised. It may bridge more where tissue moves as nobody foresaw, as when it is pulled:
+// even a place that is uncertain by a pixel then says more than the map, which would stay behind.
 void FeaturePoints::Bridge(const std::vector<Eigen::Vector2d>& before,
                            const std::vector<Eigen::Vector2d>& predicted,
                            const std::vector<std::size_t>& unknown,
@@ -133,9 +150,12 @@ void FeaturePoints::Bridge(const std::vector<Eigen::Vector2d>& before,
     part.push_back((*tracked)[k]);
   }
   tracker_.CheckReturn(part_before, part_predicted, &part);
+  const Eigen::Vector2d common = CommonOffset(predicted, *tracked);
   for (std::size_t n = 0; n < unknown.size(); ++n) {
     const std::size_t k = unknown[n];
-    const bool bridged = part[n].found && ++corners_[corners_.followed()[k]].misses <= kMostBridged;
+    const double offset = (part[n].pixel - part_predicted[n] - common).norm();
+    int& misses = corners_[corners_.followed()[k]].misses;
+    const bool bridged = part[n].found && (++misses <= kMostBridged || offset > kUnforeseen);
     (*tracked)[k].found = bridged;
   }
 }
