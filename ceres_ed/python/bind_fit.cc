@@ -248,6 +248,11 @@ void BindNumbers(ResultClass* result) {
       "Whether the deformation was discarded because it explained less than the rigid placement.");
   AddNumber(
       result,
+      "hypothesis",
+      [](const R& r) { return r.hypothesis; },
+      "The name of the hypothesis that the fit went on with; empty if there was only one graph.");
+  AddNumber(
+      result,
       "noise",
       [](const R& r) { return r.noise; },
       "The standard deviation of the target's noise, in its unit.");

@@ -3,7 +3,7 @@
 #include <ceres_ed/graph/edges.h>
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/registration/fit_uncertainty.h>
-#include <ceres_ed/registration/moving_samples.h>
+#include <ceres_ed/registration/hypotheses/explanation.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,8 +18,6 @@ namespace {
 // and the share below which nothing counts as unmatched.
 constexpr double kUnmatchedWidth = 0.02;
 constexpr double kNothingUnmatched = 0.01;
-// The weight of the target's unmatched share when two ways are compared; the rest is the source's.
-constexpr double kTargetShare = 0.8;
 // The same distance for the check against the rigid placement, which compares two states of which
 // both may be near the target: it is smaller, but not below a multiple of the noise.
 constexpr double kCheckWidth = 0.005;
@@ -32,26 +30,6 @@ constexpr double kOwnEnergyMargin = 0.02;
 // spacings.
 constexpr int kCarryingEdges = 12;
 constexpr double kCarryingReach = 1.5;
-// The number of source samples; it is large enough that each target sample has a source sample near
-// it.
-constexpr int kUnmatchedSamples = 8000;
-
-// Returns the state of nodes at the source points `node_points`, under the warp of `graph`.
-DeformationState CarryOver(const BuiltGraph& graph,
-                           const DeformationState& state,
-                           const std::vector<int>& node_points,
-                           const std::vector<Eigen::Vector3d>& points) {
-  DeformationState carried(static_cast<int>(node_points.size()));
-  for (int j = 0; j < carried.num_nodes(); ++j) {
-    const int point = node_points[j];
-    const Binding binding = graph.skinning[point];
-    MutableNodeAffine(carried.node(j)) = WarpGradient(state, binding);
-    MutableNodeTranslation(carried.node(j)) =
-        WarpPoint(graph.graph, state, binding, points[point]) - points[point];
-  }
-  return carried;
-}
-
 bool EndedEarly(const FitResult& result) {
   return result.status != SolveStatus::kConverged && result.status != SolveStatus::kMaxIterations;
 }
@@ -111,15 +89,27 @@ Status CoarseToFine::BuildGraphs(int resolutions, FitResult* result) {
   return Status::Ok();
 }
 
+DeformationState CoarseToFine::CarryOver(const BuiltGraph& graph,
+                                         const DeformationState& state,
+                                         int resolution) const {
+  const std::vector<int>& node_points = graphs_[resolution].node_points;
+  const std::vector<Eigen::Vector3d>& points = fit_.source->cloud().points;
+  DeformationState carried(static_cast<int>(node_points.size()));
+  for (int j = 0; j < carried.num_nodes(); ++j) {
+    const int point = node_points[j];
+    const Binding binding = graph.skinning[point];
+    MutableNodeAffine(carried.node(j)) = WarpGradient(state, binding);
+    MutableNodeTranslation(carried.node(j)) =
+        WarpPoint(graph.graph, state, binding, points[point]) - points[point];
+  }
+  return carried;
+}
+
 Status CoarseToFine::RunResolution(int resolution,
                                    const ResolutionPlan& plan,
-                                   int from,
                                    DeformationState* state,
                                    FitResult* result) const {
   const BuiltGraph& graph = graphs_[resolution];
-  const std::vector<Eigen::Vector3d>& points = fit_.source->cloud().points;
-  *state = from < 0 ? DeformationState(graph.graph.num_nodes())
-                    : CarryOver(graphs_[from], *state, graph.node_points, points);
   FitProblem problem(graph, fit_.source->cloud());
   Status status = problem.AddEnergies(*fit_.options, *fit_.registry, fit_.landmarks, fit_.fixed);
   if (!status.ok()) return status;
@@ -134,27 +124,59 @@ Status CoarseToFine::RunResolution(int resolution,
   return Status::Ok();
 }
 
-Unmatched CoarseToFine::MeasureUnmatched(int resolution,
-                                         const DeformationState& state,
-                                         double width) const {
-  MovingSamples moving(*fit_.source, graphs_[resolution], kUnmatchedSamples);
-  moving.Move(state, fit_.options->num_threads);
-  return FindUnmatched(moving.Moved(),
-                       *fit_.target,
-                       SamplePoints(*fit_.target, kMinCoarseSamples),
-                       width,
-                       fit_.options->matching);
+Status CoarseToFine::FollowCoarse(const Hypothesis& hypothesis,
+                                  const std::vector<ResolutionPlan>& plans,
+                                  DeformationState* state,
+                                  int* reached,
+                                  FitResult* result) const {
+  const int last = static_cast<int>(graphs_.size()) - 1;
+  *state = StartOf(hypothesis, fit_, graphs_[0]);
+  for (int resolution = 0; resolution < last; ++resolution) {
+    ResolutionPlan plan = plans[resolution];
+    plan.loss_width = hypothesis.loss_width;
+    plan.max_angle_deg = hypothesis.max_angle_deg;
+    plan.max_distance = hypothesis.max_distance;
+    plan.first_stiffness *= hypothesis.stiffness;
+    plan.last_stiffness *= hypothesis.stiffness;
+    if (resolution > 0) {
+      *state = CarryOver(graphs_[resolution - 1], *state, resolution);
+    }
+    *reached = resolution;
+    if (Status status = RunResolution(resolution, plan, state, result); !status.ok()) return status;
+    if (EndedEarly(*result)) break;
+  }
+  return Status::Ok();
 }
 
-double CoarseToFine::MeasureUnexplained(const DeformationState& state) const {
-  const double width = std::max(kCheckWidth, kCheckWidthPerNoise * fit_.noise);
-  const MovingSamples samples(*fit_.source, graphs_[graph_], kUnmatchedSamples);
-  return MeasureUnmatched(graph_, state, width).Total() + samples.LostArea(state);
+Status CoarseToFine::ChooseHypothesis(const std::vector<ResolutionPlan>& plans,
+                                      double* loss_width,
+                                      FitResult* result) {
+  double best = std::numeric_limits<double>::infinity();
+  for (const Hypothesis& hypothesis : ListHypotheses(fit_)) {
+    DeformationState state;
+    int reached = 0;
+    if (Status status = FollowCoarse(hypothesis, plans, &state, &reached, result); !status.ok()) {
+      return status;
+    }
+    const Explanation left = MeasureExplanation(fit_, graphs_[reached], state, kUnmatchedWidth);
+    if (left.AmongWays() < best) {
+      best = left.AmongWays();
+      *loss_width = hypothesis.loss_width;
+      result->hypothesis = hypothesis.name;
+      graph_ = reached;
+      state_ = std::move(state);
+    }
+    if (EndedEarly(*result)) break;
+    // Everything that the smaller surface shows is explained, so another way cannot be better.
+    if (std::min(left.unmatched.source, left.unmatched.target) < kNothingUnmatched) break;
+  }
+  return Status::Ok();
 }
 
 Status CoarseToFine::Run(FitResult* result) {
-  const FitOptions& options = *fit_.options;
-  if (Status status = BuildGraphs(options.schedule.levels, result); !status.ok()) return status;
+  if (Status status = BuildGraphs(fit_.options->schedule.levels, result); !status.ok()) {
+    return status;
+  }
   const std::vector<ResolutionPlan> plans = PlanResolutions(fit_, static_cast<int>(graphs_.size()));
   const int last = static_cast<int>(graphs_.size()) - 1;
   if (MustEnd(fit_, result)) {
@@ -162,57 +184,18 @@ Status CoarseToFine::Run(FitResult* result) {
     state_ = DeformationState(graphs_[last].graph.num_nodes());
     return Status::Ok();
   }
-  // Without matches, or with a loss that has no width, there is only one way.
-  struct Way {
-    double loss_width;
-    double max_angle_deg;
-  };
-  const Way bold = {options.loss_width, options.matching.max_angle_deg};
-  const double careful_angle = std::min(options.careful_angle_deg, bold.max_angle_deg);
-  std::vector<Way> ways = {{options.careful_loss_width, careful_angle}};
-  if (fit_.target != nullptr && options.loss != LossType::kSquared) ways.push_back(bold);
-  double best_unmatched = std::numeric_limits<double>::infinity();
-  int start = -1;
-  double loss_width = options.loss_width;
-  // The coarse graphs are fitted in each way; the state that leaves less unmatched is kept.
-  for (std::size_t i = 0; i < ways.size() && last > 0; ++i) {
-    DeformationState state;
-    int resolution = 0;
-    for (; resolution < last; ++resolution) {
-      ResolutionPlan plan = plans[resolution];
-      plan.loss_width = ways[i].loss_width;
-      plan.max_angle_deg = ways[i].max_angle_deg;
-      Status status = RunResolution(resolution, plan, resolution - 1, &state, result);
-      if (!status.ok()) return status;
-      if (EndedEarly(*result)) break;
-    }
-    const int reached = std::min(resolution, last - 1);
-    const Unmatched unmatched = fit_.target != nullptr
-                                    ? MeasureUnmatched(reached, state, kUnmatchedWidth)
-                                    : Unmatched{0.0, 0.0};
-    // A way that squeezes the source onto the target has matched it at no gain. The target is all
-    // that is known, whereas much of the source may be hidden from it.
-    const double left =
-        kTargetShare * unmatched.target + (1.0 - kTargetShare) * unmatched.source +
-        MovingSamples(*fit_.source, graphs_[reached], kUnmatchedSamples).LostArea(state);
-    if (left < best_unmatched) {
-      best_unmatched = left;
-      loss_width = ways[i].loss_width;
-      start = reached;
-      state_ = std::move(state);
-    }
-    if (EndedEarly(*result)) {
-      graph_ = start;
-      return Status::Ok();
-    }
-    // Everything that the smaller surface shows is explained, so another way cannot be better.
-    if (std::min(unmatched.source, unmatched.target) < kNothingUnmatched) break;
-  }
-  // The finest graph starts from the best coarse state.
-  graph_ = last;
+  // The coarse graphs are fitted in each way; the finest one starts from the best coarse state.
   ResolutionPlan plan = plans[last];
-  plan.loss_width = loss_width;
-  Status status = RunResolution(last, plan, start, &state_, result);
+  plan.loss_width = fit_.options->loss_width;
+  if (last > 0) {
+    Status status = ChooseHypothesis(plans, &plan.loss_width, result);
+    if (!status.ok() || EndedEarly(*result)) return status;
+    state_ = CarryOver(graphs_[graph_], state_, last);
+  } else {
+    state_ = DeformationState(graphs_[last].graph.num_nodes());
+  }
+  graph_ = last;
+  Status status = RunResolution(last, plan, &state_, result);
   if (status.ok()) KeepTheBetter(result);
   return status;
 }
@@ -221,8 +204,12 @@ Status CoarseToFine::Run(FitResult* result) {
 void CoarseToFine::KeepTheBetter(FitResult* result) {
   if (fit_.target == nullptr || !fit_.landmarks.empty() || !fit_.fixed.empty()) return;
   const DeformationState rest(graphs_[graph_].graph.num_nodes());
-  const double rigid = MeasureUnexplained(rest);
-  const double fitted = MeasureUnexplained(state_);
+  const double width = std::max(kCheckWidth, kCheckWidthPerNoise * fit_.noise);
+  const auto measure = [&](const DeformationState& state) {
+    return MeasureExplanation(fit_, graphs_[graph_], state, width).AgainstRigid();
+  };
+  const double rigid = measure(rest);
+  const double fitted = measure(state_);
   const bool has_own_energies = !fit_.options->extra_energies.empty();
   if (fitted <= (has_own_energies ? kOwnEnergyFactor * rigid + kOwnEnergyMargin : rigid)) return;
   std::ostringstream message;

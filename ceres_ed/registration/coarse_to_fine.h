@@ -4,7 +4,7 @@
 
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/registration/fit_types.h>
-#include <ceres_ed/registration/matching.h>
+#include <ceres_ed/registration/hypotheses/hypothesis.h>
 #include <ceres_ed/registration/nonrigid_loop.h>
 #include <ceres_ed/registration/unit_fit.h>
 
@@ -13,11 +13,9 @@
 
 namespace ceres_ed {
 
-// Runs the resolutions one after the other and transfers the warp from graph to graph. On the
-// coarse graphs two ways are tried: a careful one (narrow loss, strict normals) and a bold one.
-// With the careful way, limbs that are far away do not move until the parts that support them are
-// near; with the bold way, parts are moved that would otherwise not be reached. The fit continues
-// with the way that leaves less of the two surfaces unmatched.
+// Runs the resolutions one after the other and transfers the warp from graph to graph. The coarse
+// graphs are fitted by each hypothesis in turn (hypotheses/hypothesis.h), and the fit continues
+// with the state that leaves least to explain (hypotheses/explanation.h).
 class CoarseToFine {
  public:
   explicit CoarseToFine(UnitFit fit) : fit_(std::move(fit)) {}
@@ -32,24 +30,30 @@ class CoarseToFine {
 
  private:
   Status BuildGraphs(int resolutions, FitResult* result);
-  // Runs one resolution with the loss of `plan`, starting from `state` on the graph `from` (-1:
-  // from rest).
+  // Returns the state of the nodes of `resolution` under the warp of `graph`.
+  DeformationState CarryOver(const BuiltGraph& graph,
+                             const DeformationState& state,
+                             int resolution) const;
+  // Runs one resolution as `plan` says, from `state`.
   Status RunResolution(int resolution,
                        const ResolutionPlan& plan,
-                       int from,
                        DeformationState* state,
                        FitResult* result) const;
+  // Runs all resolutions but the last one in one way; `reached` is the resolution of `state`.
+  Status FollowCoarse(const Hypothesis& hypothesis,
+                      const std::vector<ResolutionPlan>& plans,
+                      DeformationState* state,
+                      int* reached,
+                      FitResult* result) const;
+  // Tries the hypotheses, and stores the state that leaves least to explain, and its graph.
+  // `loss_width` becomes that of the hypothesis.
+  Status ChooseHypothesis(const std::vector<ResolutionPlan>& plans,
+                          double* loss_width,
+                          FitResult* result);
   // Returns to the rigid placement, with a warning, if the deformation explains less of the
   // surfaces. With energies of the user, which may ask for something else, it must explain clearly
   // less.
   void KeepTheBetter(FitResult* result);
-  // Returns how much of both surfaces is unmatched in `state` on the graph of `resolution`; a point
-  // at the distance `width` counts half.
-  Unmatched MeasureUnmatched(int resolution, const DeformationState& state, double width) const;
-  // Returns how much of the surfaces `state` on the last graph leaves unexplained: what is
-  // unmatched, and the area that is squeezed away to match the rest.
-  double MeasureUnexplained(const DeformationState& state) const;
-
   UnitFit fit_;
   // The graphs from coarse to fine.
   std::vector<BuiltGraph> graphs_;

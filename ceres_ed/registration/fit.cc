@@ -65,6 +65,17 @@ Warp WarpInSourceFrame(const BuiltGraph& graph,
   return warp;
 }
 
+// Returns the motion, in the unit frame, from the place of the source to the given pose. The size
+// stays as it was placed; the centre of the source, which is the origin, moves as the poses say.
+Similarity GivenFromPlaced(const Similarity& placed,
+                           const Similarity& given,
+                           const Similarity& unit_from_target) {
+  Similarity motion = given * placed.Inverse();
+  motion = unit_from_target * motion * unit_from_target.Inverse();
+  motion.scale = 1.0;
+  return motion;
+}
+
 std::vector<Correspondence> InUnitFrame(const std::vector<Landmark>& constraints,
                                         const Similarity& unit_from_target) {
   std::vector<Correspondence> correspondences;
@@ -119,6 +130,8 @@ class Fitter {
   const PreparedSurface* prepared_source_;
   const Timer clock_;
   Similarity unit_from_target_;
+  // The pose from which the rigid stage started.
+  Similarity given_;
   // The surfaces in the unit frame, and the noise of the target there. The target may be null.
   std::unique_ptr<const Surface> source_;
   std::unique_ptr<const Surface> target_;
@@ -138,6 +151,7 @@ void Fitter::Place() {
   const Placement placement =
       PlaceSurfaces(input_, *source.surface, options_, [this] { return MustStop(); });
   result_.rigid = placement.target_from_source;
+  given_ = placement.given;
   for (const auto* notes : {&source.notes, &placement.notes}) {
     result_.warnings.insert(result_.warnings.end(), notes->begin(), notes->end());
   }
@@ -324,7 +338,8 @@ StatusOr<FitResult> Fitter::Run() {
                        InUnitFrame(input_.landmarks, unit_from_target_),
                        InUnitFrame(fixed, unit_from_target_),
                        noise_,
-                       &clock_};
+                       &clock_,
+                       GivenFromPlaced(result_.rigid, given_, unit_from_target_)};
   Report("graph", 0.0);
   CoarseToFine coarse_to_fine(fit);
   if (Status status = coarse_to_fine.Run(&result_); !status.ok()) return status;

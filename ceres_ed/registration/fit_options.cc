@@ -1,5 +1,6 @@
 #include "ceres_ed/registration/fit_options.h"
 
+#include <ceres_ed/registration/hypotheses/hypothesis.h>
 #include <ceres_ed/util/options.h>
 
 #include <algorithm>
@@ -176,6 +177,9 @@ const OptionTable<FitOptions>& FitOptions::Rows() {
           "The largest angle between normals when a coarse graph is fitted the careful way.")
           .In(AboveUpTo(0, 180))
           .Unit("degrees"),
+      Row(&O::hypotheses,
+          "hypotheses",
+          "The ways to follow TARGET on a coarse graph that are tried, with commas; empty = all."),
       Nested(&O::matching, MatchingOptions::Rows(), "match_", {"max_distance", "max_angle_deg"})
           .Internal("match_resolution")
           .Internal("match_with_details")
@@ -207,6 +211,7 @@ const OptionTable<FitOptions>& FitOptions::Rows() {
 
 bool FitOptions::IsValid(std::string* error) const {
   if (!Rows().Check(*this, error)) return false;
+  if (*error = CheckHypothesisNames(hypotheses); !error->empty()) return false;
   if (schedule.initial_stiffness >= schedule.final_stiffness) return true;
   double initial = schedule.initial_stiffness;
   double final = schedule.final_stiffness;

@@ -187,6 +187,9 @@ struct FitOptions {
   // fit continues with the way that leaves less unmatched.
   double careful_loss_width = 5.0;
   double careful_angle_deg = 50.0;
+  // The hypotheses that are tried on the coarse graphs, with commas between; empty, the default,
+  // means all of them. HypothesisNames() in hypotheses/hypothesis.h returns their names.
+  std::string hypotheses;
   // The options of the matching; max_distance is in the unit of the target.
   MatchingOptions matching;
   // The number of points of each surface that are matched in the last step, >= 10, default 12000.

@@ -108,6 +108,9 @@ struct FitResult {
   double max_fixed_error = 0.0;
   // Whether the deformation was discarded because it explained less than the rigid placement.
   bool rigid_only = false;
+  // The name of the hypothesis that the fit went on with (hypotheses/hypothesis.h); empty if there
+  // was only one graph.
+  std::string hypothesis;
   // The standard deviation of the target's noise across its surface, in the target's unit.
   double noise = 0.0;
   // The number of faces that were folded over and have been laid flat.

@@ -84,6 +84,7 @@ void NonrigidLoop::Match() {
   const Timer timer;
   MatchingOptions matching = options_.matching;
   matching.max_angle_deg = plan_.max_angle_deg;
+  matching.max_distance = std::min(matching.max_distance, plan_.max_distance);
   matching.with_details = !options_.extra_energies.empty();
   result_->matches = MatchBothWays(moving_.Moved(), *target_, target_samples_, matching, &memory_);
   const double width =

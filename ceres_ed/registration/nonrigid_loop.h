@@ -8,6 +8,7 @@
 #include <ceres_ed/registration/unit_fit.h>
 #include <ceres_ed/solver/strategy.h>
 
+#include <limits>
 #include <vector>
 
 namespace ceres_ed {
@@ -25,6 +26,8 @@ struct ResolutionPlan {
   double loss_width = 10.0;
   // The largest angle between the normals of a pair, in degrees.
   double max_angle_deg = 75.0;
+  // No pair is farther apart than this, in the unit frame.
+  double max_distance = std::numeric_limits<double>::infinity();
   // The number of points of each surface that are matched, and that number in the last step.
   int samples = 1000;
   int last_samples = 1000;

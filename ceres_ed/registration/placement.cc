@@ -28,7 +28,8 @@ Placement PlaceSurfaces(const FitInput& input,
   Placement placement;
   const bool is_rigid_stage = options.rigid_first && input.fixed_points.empty();
   if (is_rigid_stage) {
-    placement.target_from_source = PoseFromLandmarks(input, options.rigid.with_scale);
+    placement.given = PoseFromLandmarks(input, options.rigid.with_scale);
+    placement.target_from_source = placement.given;
   }
   if (input.target.empty()) return placement;
   PreparedSurface prepared = PrepareSurface(input.target, "the target", options.num_threads);

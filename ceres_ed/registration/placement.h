@@ -20,6 +20,8 @@ struct Placement {
   // The target; null if only landmarks are fitted.
   std::unique_ptr<const Surface> target;
   Similarity target_from_source;
+  // The pose from which the rigid stage started: that of the landmarks, or the given one.
+  Similarity given;
   // A sentence for each contradiction of the target's orientation that was removed.
   std::vector<std::string> notes;
 };

@@ -3,6 +3,7 @@
 #define CERES_ED_REGISTRATION_UNIT_FIT_H_
 
 #include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/geometry/similarity.h>
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/util/timer.h>
@@ -25,6 +26,9 @@ struct UnitFit {
   double noise = 0.0;
   // A timer that was started with the fit.
   const Timer* clock = nullptr;
+  // The rigid motion that takes the source from its placement back to the given pose, without a
+  // change of size; the identity if nothing was placed.
+  Similarity given_from_placed;
 };
 
 }  // namespace ceres_ed

@@ -161,6 +161,7 @@ ordered_json FitReport(const FitRun& run) {
       {"landmarks", {{"count", landmarks.count}, {"rms", landmarks.rms}, {"max", landmarks.max}}},
       {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
       {"rigid", RigidReport(result.rigid)},
+      {"hypothesis", result.hypothesis},
       {"covariance", CovarianceReport(result.uncertainty)},
       {"displacement", DisplacementReport(run)},
       {"time_s", TimeReport(run)},

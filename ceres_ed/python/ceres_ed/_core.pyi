@@ -222,6 +222,7 @@ class FitOptions:
     loss_width: float
     careful_loss_width: float
     careful_angle_deg: float
+    hypotheses: str
     max_distance: float
     max_angle_deg: float
     match_max_deviations: float
@@ -260,7 +261,7 @@ class FitOptions:
             final_stiffness: float = ..., noise_stiffness: float = ..., coarse_steps: int = ...,
             fine_steps: int = ..., max_rounds: int = ..., tolerance: float = ...,
             solver_iterations: int = ..., loss: Loss = ..., loss_width: float = ...,
-            careful_loss_width: float = ..., careful_angle_deg: float = ...,
+            careful_loss_width: float = ..., careful_angle_deg: float = ..., hypotheses: str = ...,
             max_distance: float = ..., max_angle_deg: float = ...,
             match_max_deviations: float = ..., match_reject_borders: bool = ...,
             match_symmetric_normals: bool = ..., max_samples: int = ..., denoise: bool = ...,
@@ -330,6 +331,8 @@ class FitResult:
     def max_fixed_error(self) -> float: ...
     @property
     def rigid_only(self) -> bool: ...
+    @property
+    def hypothesis(self) -> str: ...
     @property
     def noise(self) -> float: ...
     @property
@@ -610,8 +613,8 @@ def fit(
         final_stiffness: float = ..., noise_stiffness: float = ..., coarse_steps: int = ...,
         fine_steps: int = ..., max_rounds: int = ..., tolerance: float = ...,
         solver_iterations: int = ..., loss: Loss = ..., loss_width: float = ...,
-        careful_loss_width: float = ..., careful_angle_deg: float = ..., max_distance: float = ...,
-        max_angle_deg: float = ..., match_max_deviations: float = ...,
+        careful_loss_width: float = ..., careful_angle_deg: float = ..., hypotheses: str = ...,
+        max_distance: float = ..., max_angle_deg: float = ..., match_max_deviations: float = ...,
         match_reject_borders: bool = ..., match_symmetric_normals: bool = ...,
         max_samples: int = ..., denoise: bool = ..., rigid_first: bool = ...,
         rigid_scale: bool = ..., rigid_max_angle_deg: float = ..., rigid_score_width: float = ...,
