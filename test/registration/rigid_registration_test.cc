@@ -4,10 +4,14 @@
 #include <ceres_ed/registration/rigid/rigid_starts.h>
 #include <ceres_ed/simulation/shapes.h>
 
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <test/geometry/meshes.h>
 
 namespace ceres_ed {
 namespace {
@@ -41,6 +45,44 @@ double LargestGap(const Similarity& a, const Similarity& b, const PointCloud& cl
   return 100.0 * gap / (a.scale * Diagonal(cloud.points));
 }
 
+// Returns a closed stick of 1 x 0.1 x 0.1 with square ends, as a lattice of `along` x `across` x
+// `across` cells.
+PointCloud MakeStick(int along, int across) {
+  const std::array<int, 3> cells = {along, across, across};
+  PointCloud stick;
+  std::map<std::array<int, 3>, int> index;
+  const auto corner = [&](const std::array<int, 3>& at) {
+    const auto [entry, is_new] = index.emplace(at, static_cast<int>(stick.points.size()));
+    if (is_new) {
+      stick.points.emplace_back(double(at[0]) / along, 0.1 * at[1] / across, 0.1 * at[2] / across);
+    }
+    return entry->second;
+  };
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3;
+    const int v = (axis + 2) % 3;
+    for (const bool is_far : {false, true}) {
+      for (int i = 0; i < cells[u]; ++i) {
+        for (int j = 0; j < cells[v]; ++j) {
+          const auto at = [&](int du, int dv) {
+            std::array<int, 3> place{};
+            place[axis] = is_far ? cells[axis] : 0;
+            place[u] = i + du;
+            place[v] = j + dv;
+            return corner(place);
+          };
+          const std::array<int, 4> q = {at(0, 0), at(1, 0), at(1, 1), at(0, 1)};
+          for (std::array<int, 3> t : {std::array<int, 3>{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}) {
+            if (!is_far) std::swap(t[1], t[2]);
+            stick.triangles.push_back(t);
+          }
+        }
+      }
+    }
+  }
+  return stick;
+}
+
 class RigidRegistrationOfTurns : public testing::TestWithParam<double> {};
 
 // Small and large rotations; the target is a whole body length away.
@@ -66,6 +108,33 @@ TEST(RigidRegistration, RecoversAScaleWhenAsked) {
       AlignRigid(Surface(body), Surface(Moved(truth, body)), Similarity(), options);
   EXPECT_NEAR(result.target_from_source.scale, truth.scale, 1e-4);
   EXPECT_LT(LargestGap(truth, result.target_from_source, body), 0.05);
+}
+
+// Only the small ends determine the place of a stick along its axis.
+TEST(RigidRegistration, PutsTheEndsOfAStickOnEachOther) {
+  const PointCloud stick = MakeStick(60, 6);
+  const Similarity truth = MakePose(25.0, {0.2, 1.0, 0.5}, {0.05, 0.02, -0.03});
+  const RigidResult result = AlignRigid(
+      Surface(stick), Surface(Moved(truth, MakeStick(53, 5))), Similarity(), RigidOptions());
+  EXPECT_LT(LargestGap(truth, result.target_from_source, stick), 0.1);
+}
+
+// Gentle waves determine the place of a sheet within its plane.
+TEST(RigidRegistration, PutsAWavySheetInItsPlace) {
+  const auto make = [](int columns, int rows) {
+    PointCloud sheet = MakeGridMesh(columns, rows);
+    for (Eigen::Vector3d& point : sheet.points) {
+      const double x = point.x() / (columns - 1.0);
+      const double y = 0.8 * point.y() / (rows - 1.0);
+      point = {x, y, 0.04 * std::sin(5.0 * x) * std::cos(4.0 * y)};
+    }
+    return sheet;
+  };
+  const PointCloud sheet = make(60, 50);
+  const Similarity truth = MakePose(15.0, {0.5, -0.4, 1.0}, {0.02, 0.03, -0.01});
+  const RigidResult result =
+      AlignRigid(Surface(sheet), Surface(Moved(truth, make(55, 47))), Similarity(), RigidOptions());
+  EXPECT_LT(LargestGap(truth, result.target_from_source, sheet), 0.2);
 }
 
 // Distances do not determine the position of a flat sheet in its plane, so it keeps it.

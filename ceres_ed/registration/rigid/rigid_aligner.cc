@@ -22,6 +22,8 @@ constexpr double kPointShare = 0.1;
 // kLeastExplained of the distances.
 constexpr double kLeastCurvature = 0.05;
 constexpr double kLeastExplained = 0.1;
+// A mean squared normal displacement below this is a rounding error.
+constexpr double kNoCurvature = 1e-5;
 // Distances below this fraction of the score's width are rounding errors.
 constexpr double kNegligible = 1e-4;
 
@@ -164,7 +166,11 @@ RigidScore RigidAligner::Score(const Similarity& pose) const {
 
 // Does one Gauss-Newton step for the reweighted sum of point-to-plane and, with a small share,
 // point-to-point distances. Returns false if the step cannot be computed.
-bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const {
+bool RigidAligner::Step(const std::vector<PlanePair>& pairs,
+                        double sigma,
+                        StepDirections directions,
+                        Similarity* pose) const {
+  const double point_share = directions == StepDirections::kAll ? 0.0 : kPointShare;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();
   int count = 0;
   for (const PlanePair& pair : pairs) {
@@ -193,14 +199,14 @@ bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Simil
     sums.plane_energy += weight * r_plane * r_plane;
     for (int axis = 0; axis < 3; ++axis) {
       const Vector7 J = derivative(Eigen::Vector3d::Unit(axis));
-      sums.H += kPointShare * weight * J * J.transpose();
-      sums.point_b -= kPointShare * weight * gap[axis] * J;
+      sums.H += point_share * weight * J * J.transpose();
+      sums.point_b -= point_share * weight * gap[axis] * J;
     }
     sums.weight += weight;
     sums.spread += weight * arm.squaredNorm();
   }
   if (!(sums.spread > 0.0)) return false;
-  const Vector7 delta = SolveObserved(sums);
+  const Vector7 delta = SolveObserved(sums, directions);
   if (!delta.allFinite()) return false;
   const double angle = delta.head<3>().norm();
   Similarity step;
@@ -217,9 +223,11 @@ bool RigidAligner::Step(const std::vector<PlanePair>& pairs, double sigma, Simil
 // round body turns about its axis at next to no cost: where the surfaces differ by more than a
 // rigid motion they would do so, so a direction of little curvature is left as it is (Zhang et al.
 // 2016, "On degeneracy") unless moving along it explains a good part of the point-to-plane
-// distances. Turns are measured at the root mean square lever, so that all directions have the unit
+// distances. (Without that rule, only directions of no curvature at all are left out.) Turns are
+// measured at the root mean square lever, so that all directions have the unit
 // of a length.
-RigidAligner::Vector7 RigidAligner::SolveObserved(const StepSums& sums) const {
+RigidAligner::Vector7 RigidAligner::SolveObserved(const StepSums& sums,
+                                                  StepDirections directions) const {
   const double lever = std::sqrt(sums.spread / sums.weight);
   Vector7 unit;
   unit << Eigen::Vector3d::Constant(lever), Eigen::Vector3d::Ones(), lever;
@@ -227,25 +235,26 @@ RigidAligner::Vector7 RigidAligner::SolveObserved(const StepSums& sums) const {
   const int size = options_.with_scale ? 7 : 6;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       (per_unit.asDiagonal() * sums.H * per_unit.asDiagonal()).topLeftCorner(size, size));
-  const Eigen::MatrixXd& directions = eigen.eigenvectors();
-  const Eigen::VectorXd plane =
-      directions.transpose() * per_unit.cwiseProduct(sums.plane_b).head(size);
-  Eigen::VectorXd along =
-      plane + directions.transpose() * per_unit.cwiseProduct(sums.point_b).head(size);
+  const Eigen::MatrixXd& axes = eigen.eigenvectors();
+  const Eigen::VectorXd plane = axes.transpose() * per_unit.cwiseProduct(sums.plane_b).head(size);
+  Eigen::VectorXd along = plane + axes.transpose() * per_unit.cwiseProduct(sums.point_b).head(size);
   const double unexplained =
       sums.plane_energy + sums.weight * std::pow(kNegligible * options_.width, 2);
+  const double least =
+      directions == StepDirections::kAll ? kNoCurvature : kPointShare + kLeastCurvature;
   for (int i = 0; i < size; ++i) {
     const double curvature = eigen.eigenvalues()[i];
-    const bool curved = curvature > (kPointShare + kLeastCurvature) * sums.weight;
-    const bool explains = plane[i] * plane[i] > kLeastExplained * curvature * unexplained;
+    const bool curved = curvature > least * sums.weight;
+    const bool explains = directions == StepDirections::kDetermined &&
+                          plane[i] * plane[i] > kLeastExplained * curvature * unexplained;
     along[i] = curvature > 0.0 && (curved || explains) ? along[i] / curvature : 0.0;
   }
   Vector7 delta = Vector7::Zero();
-  delta.head(size) = directions * along;
+  delta.head(size) = axes * along;
   return per_unit.cwiseProduct(delta);
 }
 
-Similarity RigidAligner::Refine(Similarity pose, int iterations) const {
+Similarity RigidAligner::Refine(Similarity pose, int iterations, StepDirections directions) const {
   constexpr double kConverged = 1e-7;
   const double floor = 1e-3 * options_.width;
   std::vector<int> nearest;
@@ -260,7 +269,7 @@ Similarity RigidAligner::Refine(Similarity pose, int iterations) const {
     // The width of the loss is twice the robust standard deviation of the distances.
     const double sigma = std::max(floor, 2.0 * kDeviationPerMedian * distance);
     Similarity before = pose;
-    if (!Step(pairs, sigma, &pose)) return before;
+    if (!Step(pairs, sigma, directions, &pose)) return before;
     const Similarity change = pose * before.Inverse();
     if (change.rotation.angularDistance(Eigen::Quaterniond::Identity()) < kConverged &&
         (pose.translation - before.translation).norm() < kConverged * options_.width &&

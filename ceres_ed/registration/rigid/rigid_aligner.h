@@ -60,6 +60,14 @@ struct RigidScore {
   double Total() const;
 };
 
+// Which directions of a step are taken.
+enum class StepDirections {
+  // Those that the pairs clearly determine.
+  kDetermined,
+  // All in which the pairs have any curvature, without point-to-point distances.
+  kAll,
+};
+
 // Aligns two surfaces and rates poses.
 class RigidAligner {
  public:
@@ -72,7 +80,9 @@ class RigidAligner {
 
   // Returns the pose after at most `iterations` steps of point-to-plane ICP in both directions,
   // with a Geman-McClure loss whose width is reduced with the spread of the residuals.
-  Similarity Refine(Similarity pose, int iterations) const;
+  Similarity Refine(Similarity pose,
+                    int iterations,
+                    StepDirections directions = StepDirections::kDetermined) const;
 
  private:
   struct PlanePair;
@@ -82,8 +92,11 @@ class RigidAligner {
   // Returns the pairs at a pose. `nearest` has, for each sample, the nearest point at an earlier
   // pose or -1, and receives the present one.
   std::vector<PlanePair> Pairs(const Similarity& pose, std::vector<int>* nearest) const;
-  bool Step(const std::vector<PlanePair>& pairs, double sigma, Similarity* pose) const;
-  Vector7 SolveObserved(const StepSums& sums) const;
+  bool Step(const std::vector<PlanePair>& pairs,
+            double sigma,
+            StepDirections directions,
+            Similarity* pose) const;
+  Vector7 SolveObserved(const StepSums& sums, StepDirections directions) const;
 
   RigidSide source_;
   RigidSide target_;

@@ -24,6 +24,11 @@ constexpr int kCoarseSamples = 400;
 constexpr int kCoarseIterations = 15;
 constexpr int kFineSamples = 700;
 constexpr int kFineIterations = 30;
+// The samples and the iterations with which all directions are followed, and the part of the score
+// that this must leave at most.
+constexpr int kSlideSamples = 1000;
+constexpr int kSlideIterations = 30;
+constexpr double kSlidePreference = 0.995;
 // The edge of the cubes of the coarse surfaces. It is a fraction of the smaller surface's diagonal,
 // larger if normals turn by more than kCalmTurn from point to point (noise), and at least a
 // fraction of the larger surface's diagonal.
@@ -37,12 +42,21 @@ constexpr double kSmoothing = 3.0;
 // these times what the other one misses, and the best pose misses less than the second.
 constexpr double kToldApart = 0.7;
 constexpr double kToldBelow = 0.5;
+// A pose that is turned by 180 degrees from the given one must leave this much less unmatched than
+// one that is not: a body with a symmetry stays on the side on which it was given.
+constexpr double kTurnPreference = 0.2;
 
 struct ScoredPose {
   Similarity pose;
   RigidScore score;
   bool reversed = false;
 
+  // Returns the score for a comparison of poses that the surfaces hardly tell apart: the one that
+  // is turned less from `given` is believed.
+  double TotalFrom(const Similarity& given) const {
+    const double turn = pose.rotation.angularDistance(given.rotation) / M_PI;
+    return (1.0 + kTurnPreference * turn) * score.Total();
+  }
   bool IsGood(const RigidOptions& options) const { return score.Better() <= options.good_score; }
 };
 
@@ -151,8 +165,8 @@ ScoredPose StartFinder::Search(bool reversed, int* starts_tried) const {
     sifted.push_back(Refined(rough, start, kSiftIterations));
     ++*starts_tried;
   }
-  std::stable_sort(sifted.begin(), sifted.end(), [](const ScoredPose& a, const ScoredPose& b) {
-    return a.score.Total() < b.score.Total();
+  std::stable_sort(sifted.begin(), sifted.end(), [this](const ScoredPose& a, const ScoredPose& b) {
+    return a.TotalFrom(initial_) < b.TotalFrom(initial_);
   });
   // The best of them are refined better.
   if (sifted.size() > kSiftKept) sifted.resize(kSiftKept);
@@ -161,7 +175,7 @@ ScoredPose StartFinder::Search(bool reversed, int* starts_tried) const {
     if (Stopped()) break;
     ScoredPose candidate = Refined(coarse, start.pose, kCoarseIterations);
     candidate.reversed = reversed;
-    if (candidate.score.Total() < best.score.Total()) best = candidate;
+    if (candidate.TotalFrom(initial_) < best.TotalFrom(initial_)) best = candidate;
   }
   return best;
 }
@@ -173,7 +187,7 @@ ScoredPose StartFinder::Find(int* starts_tried) const {
   if (best.IsGood(options_) || Stopped()) return best;
   // Another pose, or the other side of the target, must be clearly better.
   const auto keep_better = [&](const ScoredPose& other) {
-    if (other.score.Total() < options_.preference * best.score.Total()) best = other;
+    if (other.TotalFrom(initial_) < options_.preference * best.TotalFrom(initial_)) best = other;
   };
   double ratio = 0.0;
   if (HasTwoSides()) {
@@ -194,6 +208,23 @@ ScoredPose StartFinder::Find(int* starts_tried) const {
   return best;
 }
 
+// Returns `pose`, or the pose to which it slides along itself where this explains the surfaces
+// better. Directions with little curvature are held during the search, because a surface that also
+// deforms slides along them for nothing. A body that does not deform has its place there, too: a
+// stick with square ends along its axis, a nearly flat sheet within its plane.
+Similarity SlideIfBetter(const Similarity& pose,
+                         const Surface& source,
+                         const Surface& target,
+                         const RigidOptions& options,
+                         bool reversed) {
+  const RigidAligner aligner(MakeRigidSide(source, kSlideSamples),
+                             MakeRigidSide(target, kSlideSamples),
+                             AlignerOptions(source, target, options, reversed));
+  const Similarity slid = aligner.Refine(pose, kSlideIterations, StepDirections::kAll);
+  const double given = aligner.Score(pose).Total();
+  return aligner.Score(slid).Total() < kSlidePreference * given ? slid : pose;
+}
+
 }  // namespace
 
 RigidResult AlignRigid(const Surface& source,
@@ -207,7 +238,8 @@ RigidResult AlignRigid(const Surface& source,
   const RigidAligner fine(MakeRigidSide(source, kFineSamples),
                           MakeRigidSide(target, kFineSamples),
                           AlignerOptions(source, target, options, best.reversed));
-  result.target_from_source = fine.Refine(best.pose, kFineIterations);
+  result.target_from_source = SlideIfBetter(
+      fine.Refine(best.pose, kFineIterations), source, target, options, best.reversed);
   result.score = fine.Score(result.target_from_source).Total();
   result.reversed = best.reversed;
   return result;
