@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/coarse_to_fine.h"
 
 #include <ceres_ed/graph/edges.h>
+#include <ceres_ed/registration/evidence/way_agreement.h>
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/registration/fit_uncertainty.h>
 #include <ceres_ed/registration/hypotheses/explanation.h>
@@ -152,6 +153,7 @@ Status CoarseToFine::ChooseHypothesis(const std::vector<ResolutionPlan>& plans,
                                       double* loss_width,
                                       FitResult* result) {
   double best = std::numeric_limits<double>::infinity();
+  WayAgreement ways;
   for (const Hypothesis& hypothesis : ListHypotheses(fit_)) {
     DeformationState state;
     int reached = 0;
@@ -159,6 +161,7 @@ Status CoarseToFine::ChooseHypothesis(const std::vector<ResolutionPlan>& plans,
       return status;
     }
     const Explanation left = MeasureExplanation(fit_, graphs_[reached], state, kUnmatchedWidth);
+    ways.Add(*fit_.source, graphs_[reached], state, left.AmongWays());
     if (left.AmongWays() < best) {
       best = left.AmongWays();
       *loss_width = hypothesis.loss_width;
@@ -170,6 +173,7 @@ Status CoarseToFine::ChooseHypothesis(const std::vector<ResolutionPlan>& plans,
     // Everything that the smaller surface shows is explained, so another way cannot be better.
     if (std::min(left.unmatched.source, left.unmatched.target) < kNothingUnmatched) break;
   }
+  result->evidence.disagreement = ways.Disagreement();
   return Status::Ok();
 }
 

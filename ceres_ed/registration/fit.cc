@@ -2,10 +2,12 @@
 
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
+#include <ceres_ed/registration/evidence/measure_evidence.h>
 #include <ceres_ed/registration/finish/unfold.h>
 #include <ceres_ed/registration/finish/vertex_finish.h>
 #include <ceres_ed/registration/fit_progress.h>
@@ -123,6 +125,8 @@ class Fitter {
   // again.
   void AddToFinish(const std::vector<Eigen::Vector3d>& displacements, PointCloud* fitted);
   void WarnAboutReflections(const DeformationState& state);
+  // Measures what the result shows about its own quality.
+  void MeasureQuality(const BuiltGraph& graph);
 
   const FitInput& input_;
   const FitOptions& options_;
@@ -152,6 +156,9 @@ void Fitter::Place() {
       PlaceSurfaces(input_, *source.surface, options_, [this] { return MustStop(); });
   result_.rigid = placement.target_from_source;
   given_ = placement.given;
+  result_.evidence.rigid_score = placement.score;
+  result_.evidence.rigid_runner_up = placement.runner_up;
+  result_.evidence.rigid_curvature = placement.curvature;
   for (const auto* notes : {&source.notes, &placement.notes}) {
     result_.warnings.insert(result_.warnings.end(), notes->begin(), notes->end());
   }
@@ -274,6 +281,10 @@ void Fitter::Unfold(const UnitFit& fit, PointCloud* fitted) {
     for (const int v : mesh.vertex_of_point) displacements.push_back(after[v] - before[v]);
     AddToFinish(displacements, fitted);
   }
+  if (!mesh.triangles.empty()) {
+    result_.evidence.folded =
+        static_cast<double>(unfold.after) / static_cast<double>(mesh.triangles.size());
+  }
   if (unfold.after > 0) {
     result_.warnings.push_back(std::to_string(unfold.after) + " of " +
                                std::to_string(mesh.triangles.size()) +
@@ -323,6 +334,25 @@ void Fitter::WarnAboutReflections(const DeformationState& state) {
                              " nodes turned inside out (det A <= 0): the surface is folded there");
 }
 
+void Fitter::MeasureQuality(const BuiltGraph& graph) {
+  if (target_ == nullptr || !result_.IsUsable()) return;
+  std::vector<Eigen::Vector3d> points = result_.points;
+  for (Eigen::Vector3d& point : points) point = unit_from_target_ * point;
+  std::vector<Eigen::Vector3d> computed;
+  const std::vector<Eigen::Vector3d>* normals = &result_.normals;
+  if (normals->size() != points.size()) {
+    // The source has triangles, from which its normals follow.
+    PointCloud fitted;
+    fitted.points = points;
+    fitted.triangles = source_->cloud().triangles;
+    computed = ComputeVertexNormals(fitted);
+    normals = &computed;
+  }
+  MeasureEvidence(
+      {source_.get(), &points, normals, target_.get(), &graph, noise_, options_.num_threads},
+      &result_.evidence);
+}
+
 StatusOr<FitResult> Fitter::Run() {
   if (Status status = ValidateFit(input_, options_); !status.ok()) return status;
   // 1. The rigid placement target_from_source, and both surfaces in the unit frame.
@@ -345,6 +375,7 @@ StatusOr<FitResult> Fitter::Run() {
   if (Status status = coarse_to_fine.Run(&result_); !status.ok()) return status;
   // 3. The warp in the source frame, and the finish of every vertex.
   Finish(fit, coarse_to_fine.graph(), coarse_to_fine.state());
+  MeasureQuality(coarse_to_fine.graph());
   return std::move(result_);
 }
 

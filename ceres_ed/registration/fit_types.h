@@ -8,6 +8,7 @@
 #include <ceres_ed/graph/skinning.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/problem/problem_types.h>
+#include <ceres_ed/registration/evidence/fit_evidence.h>
 #include <ceres_ed/registration/fit_options.h>
 #include <ceres_ed/solver/solver_types.h>
 
@@ -116,6 +117,8 @@ struct FitResult {
   // The number of faces that were folded over and have been laid flat.
   int unfolded = 0;
   FitUncertainty uncertainty;
+  // What the fit shows about its own quality.
+  FitEvidence evidence;
   FitTimes times;
   std::vector<std::string> warnings;
 

@@ -169,7 +169,7 @@ void NonrigidLoop::Run() {
   if (outcome != RoundOutcome::kStopped) {
     const bool still = outcome == RoundOutcome::kStill;
     result_->status = still ? SolveStatus::kConverged : SolveStatus::kMaxIterations;
-    result_->message = still ? "the surface stands still" : "rounds used up while still moving";
+    result_->message = still ? "the surface stands still" : "all rounds of the schedule are done";
   }
   result_->point_relevant = problem_->builder().PointRelevantNodes();
   if (plan_.is_last || outcome == RoundOutcome::kStopped) {

@@ -48,6 +48,9 @@ Placement PlaceSurfaces(const FitInput& input,
         AlignRigid(source, *placement.target, placement.target_from_source, rigid);
     placement.target_from_source = result.target_from_source;
     reversed_by_pose = result.reversed;
+    placement.score = result.score;
+    placement.runner_up = result.runner_up;
+    placement.curvature = result.curvature;
   } else {
     reversed_by_pose = IsReversedAt(source, *placement.target, placement.target_from_source, rigid);
   }

@@ -22,6 +22,10 @@ struct Placement {
   Similarity target_from_source;
   // The pose from which the rigid stage started: that of the landmarks, or the given one.
   Similarity given;
+  // How well the rigid stage is determined, as in FitEvidence; -1 without a rigid stage.
+  double score = -1.0;
+  double runner_up = -1.0;
+  double curvature = -1.0;
   // A sentence for each contradiction of the target's orientation that was removed.
   std::vector<std::string> notes;
 };

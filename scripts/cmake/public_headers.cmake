@@ -35,6 +35,7 @@ set(CERES_ED_PUBLIC_HEADERS
     ceres_ed/problem/problem_builder.h
     ceres_ed/problem/problem_config.h
     ceres_ed/problem/problem_types.h
+    ceres_ed/registration/evidence/fit_evidence.h
     ceres_ed/registration/fit.h
     ceres_ed/registration/fit_options.h
     ceres_ed/registration/fit_types.h

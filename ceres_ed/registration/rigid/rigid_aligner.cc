@@ -53,6 +53,8 @@ struct RigidAligner::PlanePair {
 // The normal equations of a step. The right sides of the two kinds of distance are kept separately.
 struct RigidAligner::StepSums {
   Eigen::Matrix<double, 7, 7> H = Eigen::Matrix<double, 7, 7>::Zero();
+  // The part of H that comes from point-to-plane distances.
+  Eigen::Matrix<double, 7, 7> plane_H = Eigen::Matrix<double, 7, 7>::Zero();
   Vector7 plane_b = Vector7::Zero();
   Vector7 point_b = Vector7::Zero();
   double plane_energy = 0.0;
@@ -164,26 +166,23 @@ RigidScore RigidAligner::Score(const Similarity& pose) const {
   return score;
 }
 
-// Does one Gauss-Newton step for the reweighted sum of point-to-plane and, with a small share,
-// point-to-point distances. Returns false if the step cannot be computed.
-bool RigidAligner::Step(const std::vector<PlanePair>& pairs,
-                        double sigma,
-                        StepDirections directions,
-                        Similarity* pose) const {
-  const double point_share = directions == StepDirections::kAll ? 0.0 : kPointShare;
-  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+bool RigidAligner::Collect(const std::vector<PlanePair>& pairs,
+                           double sigma,
+                           double point_share,
+                           Eigen::Vector3d* center,
+                           StepSums* sums) const {
+  *center = Eigen::Vector3d::Zero();
   int count = 0;
   for (const PlanePair& pair : pairs) {
     if (!pair.IsUsable()) continue;
-    center += pair.moved;
+    *center += pair.moved;
     ++count;
   }
   if (count < kMinPairs) return false;
-  center /= count;
-  StepSums sums;
+  *center /= count;
   for (const PlanePair& pair : pairs) {
     if (!pair.IsUsable()) continue;
-    const Eigen::Vector3d arm = pair.moved - center;
+    const Eigen::Vector3d arm = pair.moved - *center;
     const Eigen::Vector3d gap = pair.moved - pair.target;
     const double ratio = sigma * sigma / (sigma * sigma + pair.squared_distance);
     const double weight = ratio * ratio;
@@ -194,18 +193,31 @@ bool RigidAligner::Step(const std::vector<PlanePair>& pairs,
     };
     const Vector7 J_plane = derivative(pair.normal);
     const double r_plane = pair.normal.dot(gap);
-    sums.H += weight * J_plane * J_plane.transpose();
-    sums.plane_b -= weight * r_plane * J_plane;
-    sums.plane_energy += weight * r_plane * r_plane;
+    sums->plane_H += weight * J_plane * J_plane.transpose();
+    sums->plane_b -= weight * r_plane * J_plane;
+    sums->plane_energy += weight * r_plane * r_plane;
     for (int axis = 0; axis < 3; ++axis) {
       const Vector7 J = derivative(Eigen::Vector3d::Unit(axis));
-      sums.H += point_share * weight * J * J.transpose();
-      sums.point_b -= point_share * weight * gap[axis] * J;
+      sums->H += point_share * weight * J * J.transpose();
+      sums->point_b -= point_share * weight * gap[axis] * J;
     }
-    sums.weight += weight;
-    sums.spread += weight * arm.squaredNorm();
+    sums->weight += weight;
+    sums->spread += weight * arm.squaredNorm();
   }
-  if (!(sums.spread > 0.0)) return false;
+  sums->H += sums->plane_H;
+  return sums->spread > 0.0;
+}
+
+// Does one Gauss-Newton step for the reweighted sum of point-to-plane and, with a small share,
+// point-to-point distances. Returns false if the step cannot be computed.
+bool RigidAligner::Step(const std::vector<PlanePair>& pairs,
+                        double sigma,
+                        StepDirections directions,
+                        Similarity* pose) const {
+  const double point_share = directions == StepDirections::kAll ? 0.0 : kPointShare;
+  Eigen::Vector3d center;
+  StepSums sums;
+  if (!Collect(pairs, sigma, point_share, &center, &sums)) return false;
   const Vector7 delta = SolveObserved(sums, directions);
   if (!delta.allFinite()) return false;
   const double angle = delta.head<3>().norm();
@@ -252,6 +264,19 @@ RigidAligner::Vector7 RigidAligner::SolveObserved(const StepSums& sums,
   Vector7 delta = Vector7::Zero();
   delta.head(size) = axes * along;
   return per_unit.cwiseProduct(delta);
+}
+
+double RigidAligner::LeastCurvature(const Similarity& pose) const {
+  std::vector<int> nearest;
+  Eigen::Vector3d center;
+  StepSums sums;
+  if (!Collect(Pairs(pose, &nearest), options_.width, 0.0, &center, &sums)) return 0.0;
+  const double lever = std::sqrt(sums.spread / sums.weight);
+  Eigen::Matrix<double, 6, 1> per_unit;
+  per_unit << Eigen::Vector3d::Constant(1.0 / lever), Eigen::Vector3d::Ones();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(
+      per_unit.asDiagonal() * sums.plane_H.topLeftCorner<6, 6>() * per_unit.asDiagonal());
+  return std::clamp(eigen.eigenvalues()[0] / sums.weight, 0.0, 1.0);
 }
 
 Similarity RigidAligner::Refine(Similarity pose, int iterations, StepDirections directions) const {

@@ -84,6 +84,12 @@ class RigidAligner {
                     int iterations,
                     StepDirections directions = StepDirections::kDetermined) const;
 
+  // Returns the least curvature of the point-to-plane sum at a pose over all directions of motion
+  // (turns are measured at the root mean square lever): the mean squared displacement across the
+  // surface of a unit motion, in [0, 1]. It is near 0 for a surface that slides or turns at no
+  // cost, and if there are too few pairs.
+  double LeastCurvature(const Similarity& pose) const;
+
  private:
   struct PlanePair;
   struct StepSums;
@@ -92,6 +98,14 @@ class RigidAligner {
   // Returns the pairs at a pose. `nearest` has, for each sample, the nearest point at an earlier
   // pose or -1, and receives the present one.
   std::vector<PlanePair> Pairs(const Similarity& pose, std::vector<int>* nearest) const;
+  // Collects the normal equations of a step, with the share `point_share` of point-to-point
+  // distances; `center` receives the mean of the moved points. Returns false if there are too few
+  // pairs.
+  bool Collect(const std::vector<PlanePair>& pairs,
+               double sigma,
+               double point_share,
+               Eigen::Vector3d* center,
+               StepSums* sums) const;
   bool Step(const std::vector<PlanePair>& pairs,
             double sigma,
             StepDirections directions,

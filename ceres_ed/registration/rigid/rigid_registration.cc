@@ -45,6 +45,8 @@ constexpr double kToldBelow = 0.5;
 // A pose that is turned by 180 degrees from the given one must leave this much less unmatched than
 // one that is not: a body with a symmetry stays on the side on which it was given.
 constexpr double kTurnPreference = 0.2;
+// Poses differ if they move the corners of the source by more than this share of its diagonal.
+constexpr double kDifferent = 0.1;
 
 struct ScoredPose {
   Similarity pose;
@@ -120,12 +122,13 @@ class StartFinder {
     return {MakeRigidSide(source_, samples), MakeRigidSide(target_, samples), aligner};
   }
 
-  // Returns the given pose, or one that is clearly better, and counts the starts.
-  ScoredPose Find(int* starts_tried) const;
+  // Returns the given pose, or one that is clearly better, and counts the starts. Every pose that
+  // was refined well is added to `refined`.
+  ScoredPose Find(int* starts_tried, std::vector<ScoredPose>* refined) const;
 
  private:
   // Returns the best pose of a global search, and counts the starts.
-  ScoredPose Search(bool reversed, int* starts_tried) const;
+  ScoredPose Search(bool reversed, int* starts_tried, std::vector<ScoredPose>* refined) const;
   // Returns whether the sides of the two surfaces can be told apart and the target may be reversed.
   bool HasTwoSides() const { return options_.both_sides && aligner_options_.oriented; }
   bool Stopped() const { return options_.should_stop && options_.should_stop(); }
@@ -145,7 +148,9 @@ ScoredPose Refined(const RigidAligner& aligner, const Similarity& start, int ite
   return {pose, aligner.Score(pose)};
 }
 
-ScoredPose StartFinder::Search(bool reversed, int* starts_tried) const {
+ScoredPose StartFinder::Search(bool reversed,
+                               int* starts_tried,
+                               std::vector<ScoredPose>* refined) const {
   RigidSearchOptions search;
   search.reversed = reversed;
   search.scale = initial_.scale;
@@ -175,15 +180,17 @@ ScoredPose StartFinder::Search(bool reversed, int* starts_tried) const {
     if (Stopped()) break;
     ScoredPose candidate = Refined(coarse, start.pose, kCoarseIterations);
     candidate.reversed = reversed;
+    refined->push_back(candidate);
     if (candidate.TotalFrom(initial_) < best.TotalFrom(initial_)) best = candidate;
   }
   return best;
 }
 
-ScoredPose StartFinder::Find(int* starts_tried) const {
+ScoredPose StartFinder::Find(int* starts_tried, std::vector<ScoredPose>* refined) const {
   // The given pose is refined on the coarse surfaces.
   ScoredPose best = Refined(Aligner(kCoarseSamples, false), initial_, kCoarseIterations);
   *starts_tried = 1;
+  refined->push_back(best);
   if (best.IsGood(options_) || Stopped()) return best;
   // Another pose, or the other side of the target, must be clearly better.
   const auto keep_better = [&](const ScoredPose& other) {
@@ -195,15 +202,16 @@ ScoredPose StartFinder::Find(int* starts_tried) const {
     ScoredPose reversed = Refined(Aligner(kCoarseSamples, true), initial_, kCoarseIterations);
     reversed.reversed = true;
     ++*starts_tried;
+    refined->push_back(reversed);
     keep_better(reversed);
     if (best.IsGood(options_)) return best;
     ratio = best.score.Total() / std::max(given, reversed.score.Total());
   }
   const bool side = best.reversed;
-  keep_better(Search(side, starts_tried));
+  keep_better(Search(side, starts_tried, refined));
   const bool is_side_known = ratio < kToldApart && best.score.Better() < kToldBelow;
   if (HasTwoSides() && !is_side_known && !best.IsGood(options_) && !Stopped()) {
-    keep_better(Search(!side, starts_tried));
+    keep_better(Search(!side, starts_tried, refined));
   }
   return best;
 }
@@ -225,6 +233,28 @@ Similarity SlideIfBetter(const Similarity& pose,
   return aligner.Score(slid).Total() < kSlidePreference * given ? slid : pose;
 }
 
+// Returns the score of the best one of the `refined` poses that differ from `best` (that move the
+// corners of the source's box by more than kDifferent of its diagonal in the mean), as a multiple
+// of the score of `best`. Returns -1 if there is none.
+double RunnerUp(const ScoredPose& best,
+                const std::vector<ScoredPose>& refined,
+                const std::vector<Eigen::Vector3d>& points) {
+  const Eigen::AlignedBox3d box = BoundingBox(points);
+  const double different = kDifferent * best.pose.scale * box.diagonal().norm();
+  double score = -1.0;
+  for (const ScoredPose& other : refined) {
+    double sum = 0.0;
+    for (int corner = 0; corner < 8; ++corner) {
+      const Eigen::Vector3d at = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner));
+      sum += (best.pose * at - other.pose * at).norm() / 8.0;
+    }
+    if (sum > different && (score < 0.0 || other.score.Total() < score)) {
+      score = other.score.Total();
+    }
+  }
+  return score < 0.0 ? -1.0 : score / std::max(best.score.Total(), 1e-3);
+}
+
 }  // namespace
 
 RigidResult AlignRigid(const Surface& source,
@@ -233,7 +263,9 @@ RigidResult AlignRigid(const Surface& source,
                        const RigidOptions& options) {
   const StartFinder finder(source, target, initial, options);
   RigidResult result;
-  const ScoredPose best = finder.Find(&result.starts_tried);
+  std::vector<ScoredPose> refined;
+  const ScoredPose best = finder.Find(&result.starts_tried, &refined);
+  result.runner_up = RunnerUp(best, refined, source.cloud().points);
   // Finally the best pose is refined on the points themselves.
   const RigidAligner fine(MakeRigidSide(source, kFineSamples),
                           MakeRigidSide(target, kFineSamples),
@@ -241,6 +273,7 @@ RigidResult AlignRigid(const Surface& source,
   result.target_from_source = SlideIfBetter(
       fine.Refine(best.pose, kFineIterations), source, target, options, best.reversed);
   result.score = fine.Score(result.target_from_source).Total();
+  result.curvature = fine.LeastCurvature(result.target_from_source);
   result.reversed = best.reversed;
   return result;
 }

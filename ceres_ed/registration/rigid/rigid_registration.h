@@ -18,6 +18,11 @@ struct RigidResult {
   // most of the weight: nearly all of a partial target can be explained, but little of the whole
   // source. This is RigidScore::Total() over the points themselves.
   double score = 1.0;
+  // The score of the best one of the refined poses that differ from the result, as a multiple of
+  // the score of the result; -1 if there is none.
+  double runner_up = -1.0;
+  // RigidAligner::LeastCurvature() at the result.
+  double curvature = 0.0;
   // The number of poses that were refined, including the given one.
   int starts_tried = 0;
   // Whether the target is explained better inside out, with all its normals reversed.
