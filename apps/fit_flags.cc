@@ -35,6 +35,7 @@ const OptionTable<FitSettings>& FitSettingsRows() {
       Row(&S::fixed, "fixed", "Text to read: indices of source points that must not move.").File(),
       Row(&S::plugin, "plugin", "Shared object with more energies, or several, separated by ';'.")
           .File(),
+      Row(&S::fail_if, "fail_if", "End with exit code 3 if the verdict is this, or worse.").Main(),
       Nested(&S::options, FitOptions::Rows()),
   });
   return rows;

@@ -13,15 +13,29 @@ std::string Line(const char* format, Arguments... arguments) {
   return std::string(text) + "\n";
 }
 
+// Returns how the fit ended, in one word.
+const char* EndWord(SolveStatus status) {
+  switch (status) {
+    case SolveStatus::kConverged:
+    case SolveStatus::kMaxIterations:
+      return "done";
+    case SolveStatus::kTimeLimit:
+    case SolveStatus::kInterrupted:
+      return "stopped";
+    case SolveStatus::kFailed:
+      break;
+  }
+  return "failed";
+}
+
 }  // namespace
 
 std::string FitSummary(const FitRun& run) {
   const FitResult& result = *run.result;
   const int nodes = result.warp.graph.num_nodes();
   const int pr = NumPointRelevant(result);
-  std::string summary =
-      Line("status     %s: %s", NameOf(result.status).c_str(), result.message.c_str()) +
-      Line("nodes      %d (%d PR, %d PI)", nodes, pr, nodes - pr);
+  std::string summary = Line("status     %s: %s", EndWord(result.status), result.message.c_str()) +
+                        Line("nodes      %d (%d PR, %d PI)", nodes, pr, nodes - pr);
   if (!run.files->target.path.empty()) {
     summary +=
         Line("inliers    %d of %d matches", result.matches.inliers, result.matches.candidates) +
@@ -37,7 +51,7 @@ std::string FitSummary(const FitRun& run) {
     summary += Line("fixed      %zu, max %.4g, target units", fixed, result.max_fixed_error);
   }
   return summary + Line("time       %.2f s", run.total_s) + "output     " + run.settings->output +
-         "\n";
+         "\nverdict    " + run.verdict.Sentence() + "\n";
 }
 
 }  // namespace ceres_ed

@@ -12,6 +12,17 @@ void Verdict::Add(Grade worst, VerdictReason reason, const std::string& what_to_
   if (!known && !what_to_try.empty()) advice.push_back(what_to_try);
 }
 
+void Verdict::Check(double value,
+                    const VerdictBounds& bounds,
+                    const std::string& code,
+                    const std::string& text,
+                    const std::string& what_to_try) {
+  const double sign = bounds.bad > bounds.doubtful ? 1.0 : -1.0;
+  if (!(sign * value > sign * bounds.doubtful)) return;
+  const Grade worst = sign * value > sign * bounds.bad ? Grade::kBad : Grade::kDoubtful;
+  Add(worst, {code, text, value, bounds.doubtful}, what_to_try);
+}
+
 std::string Verdict::Sentence() const {
   std::string sentence = NameOf(grade);
   if (!reasons.empty()) sentence += ": " + reasons.front().text;

@@ -29,6 +29,13 @@ struct VerdictReason {
   double bound = 0.0;
 };
 
+// The bounds of a figure between good and doubtful, and between doubtful and bad. Larger values are
+// worse if the second bound is larger.
+struct VerdictBounds {
+  double doubtful = 0.0;
+  double bad = 0.0;
+};
+
 // The grade of a result is that of its worst figure.
 struct Verdict {
   Grade grade = Grade::kGood;
@@ -39,6 +46,13 @@ struct Verdict {
   // Adds a reason, and makes the grade at least as bad as `worst`. An empty or repeated advice is
   // not added.
   void Add(Grade worst, VerdictReason reason, const std::string& what_to_try);
+
+  // Adds a reason if `value` is beyond the bounds.
+  void Check(double value,
+             const VerdictBounds& bounds,
+             const std::string& code,
+             const std::string& text,
+             const std::string& what_to_try);
 
   // Returns the verdict in one line: the grade, and the first reason.
   std::string Sentence() const;

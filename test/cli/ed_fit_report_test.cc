@@ -12,13 +12,43 @@ using ::testing::StartsWith;
 
 TEST_F(EdFitTest, SumsUpOnStdoutUnlessQuiet) {
   const std::vector<std::string> lines = SplitLines(FitPair().out);
-  ASSERT_EQ(lines.size(), 6u);
+  ASSERT_EQ(lines.size(), 7u);
   const char* names[] = {"status     ", "nodes      ", "inliers    ", "rms        ", "time       "};
   for (int i = 0; i < 5; ++i) EXPECT_THAT(lines[i], StartsWith(names[i]));
+  EXPECT_THAT(lines[0], StartsWith("status     done: "));
   EXPECT_EQ(lines[5], "output     " + (dir_ / "out.ply"));
+  EXPECT_EQ(lines[6], "verdict    good");
   const ProgramResult quiet = FitPair({"--quiet"});
   EXPECT_EQ(quiet.exit_code, 0);
   EXPECT_EQ(quiet.out + quiet.err, BackendComplaints());
+}
+
+TEST_F(EdFitTest, JudgesARingOnAnotherBody) {
+  // The target is a thin rod.
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 600\nproperty double x\nproperty double "
+      "y\nproperty double z\nend_header\n";
+  for (int i = 0; i < 600; ++i) {
+    const double a = 2.4 * i;
+    text += std::to_string(2.0 * i / 600.0) + ' ' + std::to_string(0.05 * std::cos(a)) + ' ' +
+            std::to_string(0.05 * std::sin(a)) + '\n';
+  }
+  WriteBytes(dir_ / "target.ply", text);
+  const std::string report = "--report=" + (dir_ / "report.json");
+  ProgramResult result = FitPair({report});
+  EXPECT_EQ(result.exit_code, 0);
+  const nlohmann::json verdict = Report()["verdict"];
+  EXPECT_NE(verdict["grade"], "good");
+  ASSERT_FALSE(verdict["reasons"].empty());
+  EXPECT_TRUE(verdict["reasons"][0]["text"].is_string());
+  EXPECT_FALSE(verdict["advice"].empty());
+  EXPECT_THAT(SplitLines(result.out).back(),
+              StartsWith("verdict    " + verdict["grade"].get<std::string>() + ": "));
+  // The exit code says so where it is asked for, and the outputs are written.
+  result = FitPair({"--fail_if=doubtful", "--output=" + (dir_ / "failed.ply")});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, ::testing::HasSubstr("failed.ply: the verdict is "));
+  EXPECT_TRUE(Exists("failed.ply"));
 }
 
 TEST_F(EdFitTest, ReportsEveryFieldWithItsType) {
@@ -37,6 +67,7 @@ TEST_F(EdFitTest, ReportsEveryFieldWithItsType) {
          {"program",
           "version",
           "mode",
+          "verdict/grade",
           "status",
           "message",
           "source/path",
@@ -66,6 +97,9 @@ TEST_F(EdFitTest, ReportsEveryFieldWithItsType) {
   expect(&Json::is_number,
          {"source/diagonal",
           "target/diagonal",
+          "unmatched/source",
+          "unmatched/target",
+          "evidence/residual",
           "energy/initial",
           "energy/final",
           "energy/terms/rotation/weighted",

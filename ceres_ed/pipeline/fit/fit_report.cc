@@ -69,6 +69,33 @@ ordered_json CovarianceReport(const FitUncertainty& uncertainty) {
   return report;
 }
 
+ordered_json CoverReport(const CoverEvidence& cover) {
+  return {{"matched", cover.matched}, {"missed", cover.missed}, {"unseen", cover.unseen}};
+}
+
+ordered_json UnmatchedReport(const FitEvidence& evidence) {
+  if (!evidence.measured) return nullptr;
+  return {{"source", evidence.source.Unmatched()}, {"target", evidence.target.Unmatched()}};
+}
+
+ordered_json EvidenceReport(const FitEvidence& evidence) {
+  if (!evidence.measured) return nullptr;
+  return {{"source", CoverReport(evidence.source)},
+          {"target", CoverReport(evidence.target)},
+          {"residual", evidence.residual},
+          {"noise", evidence.noise},
+          {"edge_stretch", evidence.edge_stretch},
+          {"node_stretch", evidence.node_stretch},
+          {"folded", evidence.folded},
+          {"bend", evidence.bend},
+          {"bend_matched", evidence.bend_matched},
+          {"relief", evidence.relief},
+          {"rigid_score", evidence.rigid_score},
+          {"rigid_runner_up", evidence.rigid_runner_up},
+          {"rigid_curvature", evidence.rigid_curvature},
+          {"disagreement", evidence.disagreement}};
+}
+
 ordered_json RigidReport(const Similarity& rigid) {
   constexpr double kDegreesPerRadian = 180.0 / M_PI;
   const double angle = Eigen::AngleAxisd(rigid.rotation).angle();
@@ -162,6 +189,9 @@ ordered_json FitReport(const FitRun& run) {
       {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
       {"rigid", RigidReport(result.rigid)},
       {"hypothesis", result.hypothesis},
+      {"verdict", VerdictReport(run.verdict)},
+      {"unmatched", UnmatchedReport(result.evidence)},
+      {"evidence", EvidenceReport(result.evidence)},
       {"covariance", CovarianceReport(result.uncertainty)},
       {"displacement", DisplacementReport(run)},
       {"time_s", TimeReport(run)},

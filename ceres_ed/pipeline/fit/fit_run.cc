@@ -2,6 +2,7 @@
 
 #include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/pipeline/fit/fit_report.h>
+#include <ceres_ed/pipeline/fit/fit_verdict.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/registration/fit.h>
 
@@ -28,11 +29,25 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
   return Fit(input, options, registry);
 }
 
+bool Fails(Grade grade, FailIf fail_if) {
+  switch (fail_if) {
+    case FailIf::kDoubtful:
+      return grade != Grade::kGood;
+    case FailIf::kBad:
+      return grade == Grade::kBad;
+    case FailIf::kNever:
+      break;
+  }
+  return false;
+}
+
 // Writes the results and the report, and returns how the run ended.
 Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
   const FitSettings& settings = *run.settings;
   const FitResult& result = *run.result;
   run.warnings = FitWarnings(run);
+  run.verdict = JudgeFit(
+      {&result, run.files->source.diagonal, run.files->target.diagonal, MeasureLandmarks(run).rms});
   for (const std::string& warning : run.warnings) observer->OnWarning(warning);
   if (result.IsUsable()) {
     const Timer timer;
@@ -49,8 +64,12 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
   observer->OnEnd(run);
   const bool stopped =
       result.status == SolveStatus::kTimeLimit || result.status == SolveStatus::kInterrupted;
-  return stopped ? Outcome::StoppedEarly(result.message + " in " + settings.output)
-                 : Outcome::Done();
+  if (stopped) return Outcome::StoppedEarly(result.message + " in " + settings.output);
+  if (Fails(run.verdict.grade, settings.fail_if)) {
+    return Outcome::NoResult(
+        Status::Error(settings.output + ": the verdict is " + run.verdict.Sentence()));
+  }
+  return Outcome::Done();
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <ceres_ed/pipeline/fit/fit_settings.h>
 #include <ceres_ed/pipeline/outcome.h>
 #include <ceres_ed/pipeline/run_observer.h>
+#include <ceres_ed/pipeline/verdict.h>
 #include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/util/timer.h>
 
@@ -28,6 +29,7 @@ struct FitRun {
   double total_s = 0.0;
   // All warnings (FitWarnings()).
   std::vector<std::string> warnings;
+  Verdict verdict;
 };
 
 // The distances of points from the positions that landmarks give them, in the target's unit.

@@ -4,10 +4,19 @@
 
 #include <ceres_ed/pipeline/run_flag.h>
 #include <ceres_ed/registration/fit_options.h>
+#include <ceres_ed/util/named_values.h>
 
+#include <array>
 #include <string>
 
 namespace ceres_ed {
+
+// From which verdict on a run ends as a failure, with its outputs written.
+enum class FailIf { kNever, kDoubtful, kBad };
+
+constexpr std::array<NamedValue<FailIf>, 3> NamesOf(FailIf) {
+  return {{{"never", FailIf::kNever}, {"doubtful", FailIf::kDoubtful}, {"bad", FailIf::kBad}}};
+}
 
 // A path is empty if the file is not given or not requested.
 struct FitSettings {
@@ -24,6 +33,7 @@ struct FitSettings {
   std::string warp;
   std::string graph;
   std::string report;
+  FailIf fail_if = FailIf::kNever;
   // The flags of the program, for the report.
   RunFlags flags;
 };

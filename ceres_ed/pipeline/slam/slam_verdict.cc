@@ -144,11 +144,8 @@ Verdict JudgeRun(const std::vector<FrameRecord>& records, double node_spacing) {
     return verdict;
   }
   for (const Rule& rule : kRules) {
-    const double value = rule.value(run);
-    const double sign = rule.bad > rule.doubtful ? 1.0 : -1.0;
-    if (!(sign * value > sign * rule.doubtful)) continue;
-    const Grade grade = sign * value > sign * rule.bad ? Grade::kBad : Grade::kDoubtful;
-    verdict.Add(grade, {rule.code, rule.text(run), value, rule.doubtful}, rule.advice);
+    verdict.Check(
+        rule.value(run), {rule.doubtful, rule.bad}, rule.code, rule.text(run), rule.advice);
   }
   return verdict;
 }
