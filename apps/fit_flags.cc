@@ -1,5 +1,6 @@
 #include "apps/fit_flags.h"
 
+#include <ceres_ed/pipeline/fit/scale_setting.h>
 #include <ceres_ed/util/options.h>
 
 #include <utility>
@@ -35,6 +36,10 @@ const OptionTable<FitSettings>& FitSettingsRows() {
       Row(&S::fixed, "fixed", "Text to read: indices of source points that must not move.").File(),
       Row(&S::plugin, "plugin", "Shared object with more energies, or several, separated by ';'.")
           .File(),
+      Row(&S::scale,
+          "scale",
+          "SOURCE is multiplied by this: a number, auto (by the sizes), or units such as mm:m.")
+          .Main(),
       Row(&S::fail_if, "fail_if", "End with exit code 3 if the verdict is this, or worse.").Main(),
       Nested(&S::options, FitOptions::Rows()),
   });
@@ -78,6 +83,7 @@ StatusOr<FitCommand> ReadFitFlags() {
   static_cast<FitSettings&>(command) = std::move(read->settings);
   command.quiet = read->quiet;
   if (Status status = CheckOutputNames(command); !status.ok()) return status;
+  if (const auto scale = ParseScale(command.scale); !scale.ok()) return scale.status();
   StatusOr<std::vector<EnergySpec>> energies = ParseEnergySpecs(read->energy);
   if (!energies.ok()) return Status::Error("--energy: " + energies.status().message());
   command.options.extra_energies = *std::move(energies);

@@ -312,8 +312,9 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
     result_.message = "the warped source isn't finite";
   }
   for (const int point : input_.fixed_points) {
-    result_.max_fixed_error = std::max(
-        result_.max_fixed_error, (result_.points[point] - input_.source.points[point]).norm());
+    result_.max_fixed_error =
+        std::max(result_.max_fixed_error,
+                 (result_.points[point] - result_.rigid * input_.source.points[point]).norm());
   }
   WarnAboutReflections(state);
   result_.matches.rms_plane /= unit_from_target_.scale;
@@ -358,7 +359,8 @@ StatusOr<FitResult> Fitter::Run() {
   // 1. The rigid placement target_from_source, and both surfaces in the unit frame.
   Place();
   std::vector<Landmark> fixed;
-  for (const int point : input_.fixed_points) fixed.push_back({point, input_.source.points[point]});
+  for (const int point : input_.fixed_points)
+    fixed.push_back({point, result_.rigid * input_.source.points[point]});
   const FitOptions unit_options = UnitOptions(*source_, target_.get());
   // 2. The deformation by the nodes, from coarse to fine graphs.
   const UnitFit fit = {source_.get(),

@@ -51,6 +51,10 @@ const OptionTable<RigidOptions>& RigidOptions::Rows() {
   using O = RigidOptions;
   static const OptionTable<O> rows({
       Row(&O::with_scale, "scale", "The rigid motion also changes the size.").Main(),
+      Row(&O::initial_scale,
+          "initial_scale",
+          "The source is multiplied by this before anything else; see --scale.")
+          .In(Above(0)),
       Row(&O::max_angle_deg,
           "max_angle_deg",
           "No pair of the rigid stage has normals that differ by more.")

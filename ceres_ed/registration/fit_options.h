@@ -49,6 +49,9 @@ struct MatchingOptions {
 struct RigidOptions {
   // Whether a scale is estimated, too; default false.
   bool with_scale = false;
+  // The scale of the given pose: by what the source is multiplied before anything else, about the
+  // origin, because its unit is another one than that of the target; finite, > 0, default 1.
+  double initial_scale = 1.0;
   // Pairs whose normals differ by more than this are rejected; degrees, (0, 180], default 60.
   double max_angle_deg = 60.0;
   // The distance, as a fraction of the target's diagonal, at which a point counts half as unmatched

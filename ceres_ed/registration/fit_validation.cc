@@ -40,7 +40,7 @@ Status CheckPoints(const FitInput& input) {
 }
 
 Status CheckScale(const FitInput& input, const FitOptions& options) {
-  const double source = Diagonal(input.source.points);
+  const double source = options.rigid.initial_scale * Diagonal(input.source.points);
   if (input.target.empty()) return Status::Ok();
   const double target = Diagonal(input.target.points);
   if (!(target > 0.0)) return Status::Error("the target has no extent: all its points coincide");
@@ -49,7 +49,7 @@ Status CheckScale(const FitInput& input, const FitOptions& options) {
   std::ostringstream message;
   message << "source and target have very different sizes: their diagonals are " << source
           << " and " << target << " (at most a factor of " << kMaxScaleRatio
-          << " is expected; are the units the same?)";
+          << " is expected; are the units the same? --scale=auto finds the factor)";
   return Status::Error(message.str());
 }
 

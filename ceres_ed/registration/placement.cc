@@ -7,16 +7,24 @@
 namespace ceres_ed {
 namespace {
 
-// Returns the pose that the landmarks determine, or the identity if they do not determine one.
-Similarity PoseFromLandmarks(const FitInput& input, bool with_scale) {
+// Returns the pose that changes the unit of the source alone.
+Similarity UnitPose(const RigidOptions& options) {
+  Similarity pose;
+  pose.scale = options.initial_scale;
+  return pose;
+}
+
+// Returns the pose that the landmarks determine, or UnitPose() if they do not determine one.
+Similarity PoseFromLandmarks(const FitInput& input, const RigidOptions& options) {
+  const Similarity unit = UnitPose(options);
   std::vector<Eigen::Vector3d> from;
   std::vector<Eigen::Vector3d> to;
   for (const Landmark& landmark : input.landmarks) {
-    from.push_back(input.source.points[landmark.point]);
+    from.push_back(unit * input.source.points[landmark.point]);
     to.push_back(landmark.position);
   }
-  const StatusOr<Similarity> pose = Similarity::FitPoints(from, to, with_scale);
-  return pose.ok() ? *pose : Similarity();
+  const StatusOr<Similarity> pose = Similarity::FitPoints(from, to, options.with_scale);
+  return pose.ok() ? *pose * unit : unit;
 }
 
 }  // namespace
@@ -27,10 +35,9 @@ Placement PlaceSurfaces(const FitInput& input,
                         const std::function<bool()>& should_stop) {
   Placement placement;
   const bool is_rigid_stage = options.rigid_first && input.fixed_points.empty();
-  if (is_rigid_stage) {
-    placement.given = PoseFromLandmarks(input, options.rigid.with_scale);
-    placement.target_from_source = placement.given;
-  }
+  placement.given =
+      is_rigid_stage ? PoseFromLandmarks(input, options.rigid) : UnitPose(options.rigid);
+  placement.target_from_source = placement.given;
   if (input.target.empty()) return placement;
   PreparedSurface prepared = PrepareSurface(input.target, "the target", options.num_threads);
   placement.target = std::move(prepared.surface);

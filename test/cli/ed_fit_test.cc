@@ -217,6 +217,30 @@ TEST_F(EdFitTest, GivesTheSameInMillimetresAndMetres) {
   EXPECT_LT(LargestDistance(metres, millimetres), 1e-6 * kRingDiagonal);
 }
 
+TEST_F(EdFitTest, MultipliesTheSourceByTheRatioOfUnits) {
+  ASSERT_EQ(FitPair().exit_code, 0);
+  const std::vector<Eigen::Vector3d> expected = Load("out.ply").cloud.points;
+  RingOptions metres;
+  metres.scale = 1e-3;
+  WritePair(metres, {});
+  const std::string spacing = "--node_spacing=0.0002";
+  for (const char* scale : {"--scale=auto", "--scale=1000", "--scale=m:mm"}) {
+    const ProgramResult result = FitPair({spacing, scale});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    // Rounding decides which of several equal places gets a node.
+    EXPECT_LT(LargestDistance(Load("out.ply").cloud.points, expected), 0.03) << scale;
+    EXPECT_NE(result.err.find("the source is multiplied by 1000"), std::string::npos);
+  }
+  // Without it the units are in the message.
+  const ProgramResult refused = FitPair({spacing});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--scale=auto"), std::string::npos) << refused.err;
+  // What is fixed keeps its place in the unit of the target.
+  WriteBytes(dir_ / "fixed.txt", "0\n");
+  ASSERT_EQ(FitPair({spacing, "--scale=1000", "--fixed=" + (dir_ / "fixed.txt")}).exit_code, 0);
+  EXPECT_LT((Load("out.ply").cloud.points[0] - RingPoint(0.0, 0.0)).norm(), 1e-3);
+}
+
 TEST_F(EdFitTest, TakesBarePoints) {
   RingOptions bare;
   bare.faces = false;

@@ -138,6 +138,29 @@ TEST(RigidRegistration, PutsAWavySheetInItsPlace) {
 }
 
 // Distances do not determine the position of a flat sheet in its plane, so it keeps it.
+// From any other unit, as long as the scale is asked for.
+TEST(RigidRegistration, RecoversAnyScale) {
+  const PointCloud body = MakeSyntheticShape(SyntheticShape::kDolphin, 1500, 1.0);
+  RigidOptions options;
+  options.with_scale = true;
+  for (const double scale : {1e-3, 0.05, 5.0, 20.0, 100.0, 1000.0}) {
+    const Similarity truth = MakePose(35.0, {0.3, -1.0, 0.5}, {1.2, -0.4, 0.8}, scale);
+    const RigidResult result =
+        AlignRigid(Surface(body), Surface(Moved(truth, body)), Similarity(), options);
+    EXPECT_LT(LargestGap(truth, result.target_from_source, body), 0.1) << scale;
+  }
+}
+
+// Nothing is asserted of the pose: a search from another unit must end, and say that it is bad.
+TEST(RigidRegistration, EndsWhereTheUnitsDiffer) {
+  const PointCloud body = MakeSyntheticShape(SyntheticShape::kDolphin, 300, 1.0);
+  for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
+    const PointCloud other = Moved(MakePose(35.0, {0.3, -1.0, 0.5}, {1.2, 0.0, 0.0}, scale), body);
+    EXPECT_GT(AlignRigid(Surface(body), Surface(other), Similarity(), RigidOptions()).score, 0.1)
+        << scale;
+  }
+}
+
 TEST(RigidRegistration, LeavesWhatNothingDetermines) {
   const PointCloud sheet = MakeSyntheticShape(SyntheticShape::kPlane, 900, 0.2);
   Eigen::Vector3d center = Eigen::Vector3d::Zero();

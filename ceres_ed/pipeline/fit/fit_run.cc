@@ -3,6 +3,7 @@
 #include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/pipeline/fit/fit_report.h>
 #include <ceres_ed/pipeline/fit/fit_verdict.h>
+#include <ceres_ed/pipeline/fit/scale_setting.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/registration/fit.h>
 
@@ -105,12 +106,21 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
   const Status status = PrepareOutputs(settings);
   if (!status.ok()) return Outcome::BadInput(status);
 
+  const StatusOr<ScaleSetting> scale = ParseScale(settings.scale);
+  if (!scale.ok()) return Outcome::Usage(scale.status().message());
+
   // Read and fit.
-  const StatusOr<FitFiles> files = LoadFitFiles(settings);
+  StatusOr<FitFiles> files = LoadFitFiles(settings);
   if (!files.ok()) return Outcome::BadInput(files.status());
+  FitOptions options = settings.options;
+  if (!settings.scale.empty()) {
+    const std::string note =
+        ApplyScale(*scale, files->source.diagonal, files->target.diagonal, &options);
+    if (!note.empty()) files->warnings.push_back(note);
+  }
   const double load_s = clock.Seconds();
   const StatusOr<FitResult> result =
-      FitWithProgress(files->input, settings.options, load_s, registry, observer);
+      FitWithProgress(files->input, options, load_s, registry, observer);
   if (!result.ok()) {
     const std::string inputs =
         settings.source + (settings.target.empty() ? "" : ", " + settings.target);

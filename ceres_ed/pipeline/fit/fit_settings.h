@@ -26,6 +26,8 @@ struct FitSettings {
   std::string target;
   std::string landmarks;
   std::string fixed;
+  // The unit of the source against that of the target (scale_setting.h).
+  std::string scale;
   // Shared objects with more energies, separated by ";".
   std::string plugin;
   // The outputs.

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include <glog/logging.h>
-
 namespace ceres_ed {
 namespace {
 
@@ -16,11 +14,12 @@ constexpr double kMaxCellsPerAxis = 120.0;
 }  // namespace
 
 NearestGrid::NearestGrid(const std::vector<Eigen::Vector3d>& points, double cell, double reach) {
-  CHECK_GT(cell, 0.0);
   const Eigen::AlignedBox3d box = BoundingBox(points);
   const Eigen::Vector3d margin = Eigen::Vector3d::Constant(reach);
   const Eigen::Vector3d extent = box.sizes() + 2.0 * margin;
   cell = std::max(cell, extent.maxCoeff() / kMaxCellsPerAxis);
+  // All points are at one place, and there is no reach: one cube of any size has them.
+  if (!(cell > 0.0)) cell = 1.0;
   corner_ = box.min() - margin;
   per_cell_ = 1.0 / cell;
   size_ = (extent * per_cell_).array().ceil().max(1.0).cast<int>();

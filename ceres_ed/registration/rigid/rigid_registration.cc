@@ -45,6 +45,8 @@ constexpr double kToldBelow = 0.5;
 // A pose that is turned by 180 degrees from the given one must leave this much less unmatched than
 // one that is not: a body with a symmetry stays on the side on which it was given.
 constexpr double kTurnPreference = 0.2;
+// The scale of the given pose is a guess if the sizes then differ by more than this factor.
+constexpr double kMaxSizeRatio = 2.0;
 // Poses differ if they move the corners of the source by more than this share of its diagonal.
 constexpr double kDifferent = 0.1;
 
@@ -255,12 +257,50 @@ double RunnerUp(const ScoredPose& best,
   return score < 0.0 ? -1.0 : score / std::max(best.score.Total(), 1e-3);
 }
 
+// Returns the root mean square distance of a surface from its centroid, weighted by area, and the
+// centroid.
+double SizeOf(const Surface& surface, Eigen::Vector3d* centroid) {
+  const std::vector<Eigen::Vector3d>& points = surface.cloud().points;
+  const std::vector<double>& areas = surface.relative_areas();
+  *centroid = Eigen::Vector3d::Zero();
+  double total = 0.0;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    *centroid += areas[p] * points[p];
+    total += areas[p];
+  }
+  *centroid /= total;
+  double sum = 0.0;
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    sum += areas[p] * (points[p] - *centroid).squaredNorm();
+  }
+  return std::sqrt(sum / total);
+}
+
+// Returns `initial`, with another scale if the surfaces then differ in size by more than
+// kMaxSizeRatio. Steps of ICP change the scale by a fifth at most, and only where pairs are found,
+// so that they do not find it from another unit. The centroids are laid onto each other.
+Similarity WithPlausibleScale(const Surface& source,
+                              const Surface& target,
+                              const Similarity& initial) {
+  Eigen::Vector3d from, to;
+  const double source_size = initial.scale * SizeOf(source, &from);
+  const double target_size = SizeOf(target, &to);
+  const double ratio = target_size / source_size;
+  const bool is_plausible = ratio < kMaxSizeRatio && ratio > 1.0 / kMaxSizeRatio;
+  if (is_plausible || !(ratio > 0.0) || !std::isfinite(ratio)) return initial;
+  Similarity pose = initial;
+  pose.scale *= ratio;
+  pose.translation = to - pose.scale * (pose.rotation * from);
+  return pose;
+}
+
 }  // namespace
 
 RigidResult AlignRigid(const Surface& source,
                        const Surface& target,
-                       const Similarity& initial,
+                       const Similarity& given,
                        const RigidOptions& options) {
+  const Similarity initial = options.with_scale ? WithPlausibleScale(source, target, given) : given;
   const StartFinder finder(source, target, initial, options);
   RigidResult result;
   std::vector<ScoredPose> refined;

@@ -260,7 +260,8 @@ std::vector<Similarity> SearchRigidly(const CoarseSurface& source,
   const CoarseSurface& base = source_is_query ? target : source;
   const double base_per_query = source_is_query ? options.scale : 1.0 / options.scale;
   std::vector<Similarity> poses;
-  if (query.size() == 0) return poses;
+  // A surface whose points are all at one place lies anywhere.
+  if (!(Diagonal(query.points()) > 0.0) || !(Diagonal(base.points()) > 0.0)) return poses;
   const Searcher searcher(query, base_per_query, base, options.oriented, options.reversed);
   for (const Hypothesis& hypothesis : searcher.Run(options.max_count, options.should_stop)) {
     Similarity base_from_query;
