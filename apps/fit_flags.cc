@@ -40,6 +40,7 @@ const OptionTable<FitSettings>& FitSettingsRows() {
           "scale",
           "SOURCE is multiplied by this: a number, auto (by the sizes), or units such as mm:m.")
           .Main(),
+      Row(&S::repair, "repair", "Mend what ed_check finds and what is safe to mend.").Main(),
       Row(&S::fail_if, "fail_if", "End with exit code 3 if the verdict is this, or worse.").Main(),
       Nested(&S::options, FitOptions::Rows()),
   });

@@ -153,7 +153,7 @@ TEST(RigidRegistration, RecoversAnyScale) {
 
 // Nothing is asserted of the pose: a search from another unit must end, and say that it is bad.
 TEST(RigidRegistration, EndsWhereTheUnitsDiffer) {
-  const PointCloud body = MakeSyntheticShape(SyntheticShape::kDolphin, 300, 1.0);
+  const PointCloud body = MakeSyntheticShape(SyntheticShape::kDolphin, 500, 1.0);
   for (const double scale : {1e-6, 1e-3, 1e3, 1e6}) {
     const PointCloud other = Moved(MakePose(35.0, {0.3, -1.0, 0.5}, {1.2, 0.0, 0.0}, scale), body);
     EXPECT_GT(AlignRigid(Surface(body), Surface(other), Similarity(), RigidOptions()).score, 0.1)

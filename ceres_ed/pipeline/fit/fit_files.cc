@@ -5,8 +5,10 @@
 #include <ceres_ed/io/mesh/vertex_columns.h>
 #include <ceres_ed/io/point_list_io.h>
 #include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/pipeline/check/check_files.h>
 #include <ceres_ed/pipeline/fit/stray_vertices.h>
 #include <ceres_ed/pipeline/outputs.h>
+#include <ceres_ed/preflight/repair.h>
 
 #include <cmath>
 #include <cstddef>
@@ -76,6 +78,15 @@ void Append(const std::vector<std::string>& from, std::vector<std::string>* to) 
   to->insert(to->end(), from.begin(), from.end());
 }
 
+// Reads a cloud without its stray vertices, and mends it if `repair`.
+StatusOr<LoadedCloud> LoadInput(const std::string& path, bool repair) {
+  StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  if (!loaded.ok()) return loaded;
+  LeaveOutStrayVertices(path, &*loaded);
+  if (repair) Append(RepairCloud(path, &loaded->cloud), &loaded->warnings);
+  return loaded;
+}
+
 // Returns the document of the source with a property std_dev. Its value is kUnknown for a vertex
 // without a standard deviation, because not every reader of ASCII files accepts "nan".
 PlyDocument WithDeviations(const FitFiles& files, const std::vector<double>& std_dev) {
@@ -99,22 +110,24 @@ PlyDocument WithDeviations(const FitFiles& files, const std::vector<double>& std
 
 StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
   FitFiles files;
-  StatusOr<LoadedCloud> source = LoadCloud(settings.source);
+  StatusOr<LoadedCloud> source = LoadInput(settings.source, settings.repair);
   if (!source.ok()) return source.status();
-  LeaveOutStrayVertices(settings.source, &*source);
   files.source = Describe(settings.source, *source);
   files.input.source = std::move(source->cloud);
   files.source_document = std::move(source->document);
   files.vertex_of_point = std::move(source->vertex_of_point);
   Append(source->warnings, &files.warnings);
+  PlyDocument target_document;
   if (!settings.target.empty()) {
-    StatusOr<LoadedCloud> target = LoadCloud(settings.target);
+    StatusOr<LoadedCloud> target = LoadInput(settings.target, settings.repair);
     if (!target.ok()) return target.status();
-    LeaveOutStrayVertices(settings.target, &*target);
     files.target = Describe(settings.target, *target);
     files.input.target = std::move(target->cloud);
     Append(target->warnings, &files.warnings);
+    target_document = std::move(target->document);
   }
+  files.checks = CheckFiles({settings.source, &files.input.source, &files.source_document},
+                            {settings.target, &files.input.target, &target_document});
   if (!settings.landmarks.empty()) {
     if (Status status = LoadLandmarks(settings.landmarks, &files); !status.ok()) return status;
   }

@@ -4,6 +4,7 @@
 
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/fit/fit_settings.h>
+#include <ceres_ed/preflight/finding.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/status.h>
 
@@ -35,6 +36,8 @@ struct FitFiles {
   PlyDocument source_document;
   std::vector<int> vertex_of_point;
   std::vector<std::string> warnings;
+  // What the checks of the inputs have found.
+  std::vector<Finding> checks;
 };
 
 // Returns the inputs. Errors name the file, the place, the value and what was expected.

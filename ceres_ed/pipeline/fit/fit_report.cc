@@ -1,6 +1,7 @@
 #include "ceres_ed/pipeline/fit/fit_report.h"
 
 #include <ceres_ed/linear_algebra/linear_algebra_backend.h>
+#include <ceres_ed/pipeline/check/check_files.h>
 #include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/version.h>
@@ -150,6 +151,14 @@ std::vector<std::string> IdleEnergies(const FitRun& run) {
 
 std::vector<std::string> FitWarnings(const FitRun& run) {
   std::vector<std::string> warnings = run.files->warnings;
+  // A fit copes with what is only noted, and says itself what it did.
+  for (const Finding& finding : run.files->checks) {
+    const bool is_known =
+        finding.code == "units" && run.result->warp.target_from_source.scale != 1.0;
+    if (finding.severity == Severity::kWarning && !is_known) {
+      warnings.push_back(finding.text + "; " + finding.fix);
+    }
+  }
   warnings.insert(warnings.end(), run.result->warnings.begin(), run.result->warnings.end());
   const FitOptions& options = run.settings->options;
   const auto add = [&warnings](const std::vector<std::string>& more) {
@@ -189,6 +198,7 @@ ordered_json FitReport(const FitRun& run) {
       {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
       {"rigid", RigidReport(result.rigid)},
       {"hypothesis", result.hypothesis},
+      {"checks", ChecksReport(run.files->checks)},
       {"verdict", VerdictReport(run.verdict)},
       {"unmatched", UnmatchedReport(result.evidence)},
       {"evidence", EvidenceReport(result.evidence)},

@@ -28,6 +28,8 @@ struct FitSettings {
   std::string fixed;
   // The unit of the source against that of the target (scale_setting.h).
   std::string scale;
+  // Whether faults of the inputs are mended (preflight/repair.h).
+  bool repair = false;
   // Shared objects with more energies, separated by ";".
   std::string plugin;
   // The outputs.
