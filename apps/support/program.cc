@@ -1,5 +1,7 @@
 #include "apps/support/program.h"
 
+#include <ceres_ed/util/shown_text.h>
+
 #include <algorithm>
 #include <atomic>
 #include <csignal>
@@ -103,7 +105,7 @@ int RunProgram(const ProgramInfo& info,
     std::replace(line.begin(), line.end(), '\n', ' ');
     if (outcome.code == ExitCode::kUsage)
       line += line.back() == '?' ? " (see --help)" : "; see --help";
-    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fprintf(stderr, "%s\n", ShownText(line).c_str());
   }
   return static_cast<int>(outcome.code);
 }
