@@ -11,6 +11,19 @@
 #include <unistd.h>
 
 namespace ceres_ed {
+namespace {
+
+// Removes a symbolic link to a regular file, or to nothing: the file that is created must not
+// overwrite one that lies elsewhere. Links to devices and pipes stay.
+Status RemoveLinkToFile(const std::string& path) {
+  struct stat link;
+  if (::lstat(path.c_str(), &link) != 0 || !S_ISLNK(link.st_mode)) return Status::Ok();
+  struct stat target;
+  if (::stat(path.c_str(), &target) == 0 && !S_ISREG(target.st_mode)) return Status::Ok();
+  return ::unlink(path.c_str()) == 0 ? Status::Ok() : WriteError(path, errno);
+}
+
+}  // namespace
 
 AppendFile::~AppendFile() {
   if (is_open()) ::close(descriptor_);
@@ -28,6 +41,7 @@ AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
 StatusOr<AppendFile> AppendFile::Create(const std::string& path) {
   AppendFile file;
   file.path_ = path;
+  if (Status status = RemoveLinkToFile(path); !status.ok()) return status;
   file.descriptor_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (!file.is_open()) return WriteError(path, errno);
   return file;

@@ -1,5 +1,6 @@
 #include "ceres_ed/io/append_file.h"
 
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -30,6 +31,22 @@ TEST(AppendFile, CreateEmptiesAnOldFile) {
   WriteBytes(dir / "rows.csv", "old");
   ASSERT_TRUE(AppendFile::Create(dir / "rows.csv").ok());
   EXPECT_EQ(ReadBytes(dir / "rows.csv"), "");
+}
+
+TEST(AppendFile, CreateDoesNotWriteThroughALinkToAFile) {
+  const TemporaryDirectory dir;
+  WriteBytes(dir / "other.csv", "kept");
+  std::filesystem::create_symlink(dir / "other.csv", dir / "rows.csv");
+  std::filesystem::create_symlink(dir / "nowhere.csv", dir / "more.csv");
+  for (const char* name : {"rows.csv", "more.csv"}) {
+    StatusOr<AppendFile> file = AppendFile::Create(dir / name);
+    ASSERT_TRUE(file.ok()) << file.status().message();
+    ASSERT_TRUE(file->Append("row").ok());
+    EXPECT_EQ(ReadBytes(dir / name), "row");
+    EXPECT_FALSE(std::filesystem::is_symlink(dir / name));
+  }
+  EXPECT_EQ(ReadBytes(dir / "other.csv"), "kept");
+  EXPECT_FALSE(std::filesystem::exists(dir / "nowhere.csv"));
 }
 
 TEST(AppendFile, ReopenGoesOnBehindTheGivenSize) {
