@@ -86,7 +86,8 @@ inline py::array OwnedView(std::vector<Eigen::Vector3d> points) {
   return View(*kept, owner);
 }
 
-// Makes an array read-only. It is used for copies: a value that is written to one would be lost.
+// Makes an array read-only. It is used for copies, because a value that is written to one would be
+// lost, and for results, which would no longer be what was computed.
 inline py::array ReadOnly(py::array array) {
   array.attr("flags").attr("writeable") = false;
   return array;

@@ -145,13 +145,16 @@ void BindArrays(ResultClass* result) {
       ->def_property_readonly(
           "points",
           [](const py::object& self) {
-            return View(self.cast<FittedSurface&>().result.points, self);
+            return ReadOnly(View(self.cast<FittedSurface&>().result.points, self));
           },
-          "The deformed source in the target's frame and unit, (N, 3) float64; a view.")
+          "The deformed source in the target's frame and unit, (N, 3) float64; a view that "
+          "cannot be written.")
       .def_property_readonly(
           "normals",
-          [](const py::object& self) {
-            return ViewOrNone(self.cast<FittedSurface&>().result.normals, self);
+          [](const py::object& self) -> py::object {
+            std::vector<Eigen::Vector3d>& normals = self.cast<FittedSurface&>().result.normals;
+            if (normals.empty()) return py::none();
+            return ReadOnly(View(normals, self));
           },
           "The normals of the deformed source, (N, 3) float64; a view. None if it has none.")
       .def_property_readonly(

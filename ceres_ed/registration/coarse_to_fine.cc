@@ -23,6 +23,8 @@ constexpr double kNothingUnmatched = 0.01;
 // both may be near the target: it is smaller, but not below a multiple of the noise.
 constexpr double kCheckWidth = 0.005;
 constexpr double kCheckWidthPerNoise = 3.0;
+// Shares that differ by less than this are equal: rounding and the meshing decide about the rest.
+constexpr double kSameShare = 1e-4;
 // A deformation with energies of the user may leave this times as much unexplained as the rigid
 // placement, and this share more.
 constexpr double kOwnEnergyFactor = 1.1;
@@ -215,7 +217,10 @@ void CoarseToFine::KeepTheBetter(FitResult* result) {
   const double rigid = measure(rest);
   const double fitted = measure(state_);
   const bool has_own_energies = !fit_.options->extra_energies.empty();
-  if (fitted <= (has_own_energies ? kOwnEnergyFactor * rigid + kOwnEnergyMargin : rigid)) return;
+  if (fitted <=
+      (has_own_energies ? kOwnEnergyFactor * rigid + kOwnEnergyMargin : rigid + kSameShare)) {
+    return;
+  }
   std::ostringstream message;
   message << "the deformation leaves more of the surfaces unexplained (" << 100.0 * fitted
           << " %) than the rigid placement (" << 100.0 * rigid

@@ -4,6 +4,7 @@
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
+#include <thread>
 
 #include <ceres/solver.h>
 
@@ -39,7 +40,10 @@ ceres::Solver::Options CeresOptions(const SolverOptions& options) {
   ceres_options.gradient_tolerance = options.gradient_tolerance;
   ceres_options.parameter_tolerance = options.parameter_tolerance;
   ceres_options.initial_trust_region_radius = options.initial_trust_region_radius;
-  ceres_options.num_threads = options.num_threads;
+  // Ceres would complain on stderr, in each solve, about more threads than the machine has.
+  const auto available = static_cast<int>(std::thread::hardware_concurrency());
+  ceres_options.num_threads =
+      available > 0 ? std::min(options.num_threads, available) : options.num_threads;
   ceres_options.max_solver_time_in_seconds = options.time_limit_s;
   ceres_options.logging_type = ceres::SILENT;
   return ceres_options;

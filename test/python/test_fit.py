@@ -98,6 +98,13 @@ def test_results_are_views_that_outlive_the_result(plane):
     np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1.0, atol=1e-12)
 
 
+def test_results_cannot_be_written(plane, fitted):
+    for array in (fitted.points, fitted.normals):
+        if array is not None:
+            with pytest.raises(ValueError, match="read-only"):
+                array[0, 0] = 1.0
+
+
 def test_inputs_stay_as_they_are(grid, hill):
     points, triangles = (array.copy() for array in grid)
     ceres_ed.fit((points, triangles), hill)

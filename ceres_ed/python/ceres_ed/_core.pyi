@@ -232,6 +232,7 @@ class FitOptions:
     denoise: bool
     rigid_first: bool
     rigid_scale: bool
+    rigid_initial_scale: float
     rigid_max_angle_deg: float
     rigid_score_width: float
     rigid_good_score: float
@@ -265,10 +266,10 @@ class FitOptions:
             max_distance: float = ..., max_angle_deg: float = ...,
             match_max_deviations: float = ..., match_reject_borders: bool = ...,
             match_symmetric_normals: bool = ..., max_samples: int = ..., denoise: bool = ...,
-            rigid_first: bool = ..., rigid_scale: bool = ..., rigid_max_angle_deg: float = ...,
-            rigid_score_width: float = ..., rigid_good_score: float = ...,
-            rigid_preference: float = ..., finish: bool = ..., finish_rounds: int = ...,
-            finish_steps: int = ..., finish_smoothing: float = ...,
+            rigid_first: bool = ..., rigid_scale: bool = ..., rigid_initial_scale: float = ...,
+            rigid_max_angle_deg: float = ..., rigid_score_width: float = ...,
+            rigid_good_score: float = ..., rigid_preference: float = ..., finish: bool = ...,
+            finish_rounds: int = ..., finish_steps: int = ..., finish_smoothing: float = ...,
             finish_max_smoothing: float = ..., finish_fade: float = ...,
             finish_point_to_point_share: float = ..., finish_loss_width: float = ...,
             unfold: bool = ..., covariance: bool = ..., threads: int = ...,
@@ -617,13 +618,13 @@ def fit(
         max_distance: float = ..., max_angle_deg: float = ..., match_max_deviations: float = ...,
         match_reject_borders: bool = ..., match_symmetric_normals: bool = ...,
         max_samples: int = ..., denoise: bool = ..., rigid_first: bool = ...,
-        rigid_scale: bool = ..., rigid_max_angle_deg: float = ..., rigid_score_width: float = ...,
-        rigid_good_score: float = ..., rigid_preference: float = ..., finish: bool = ...,
-        finish_rounds: int = ..., finish_steps: int = ..., finish_smoothing: float = ...,
-        finish_max_smoothing: float = ..., finish_fade: float = ...,
-        finish_point_to_point_share: float = ..., finish_loss_width: float = ...,
-        unfold: bool = ..., covariance: bool = ..., threads: int = ...,
-        time_limit_s: float = ...) -> FitResult: ...
+        rigid_scale: bool = ..., rigid_initial_scale: float = ..., rigid_max_angle_deg: float = ...,
+        rigid_score_width: float = ..., rigid_good_score: float = ...,
+        rigid_preference: float = ..., finish: bool = ..., finish_rounds: int = ...,
+        finish_steps: int = ..., finish_smoothing: float = ..., finish_max_smoothing: float = ...,
+        finish_fade: float = ..., finish_point_to_point_share: float = ...,
+        finish_loss_width: float = ..., unfold: bool = ..., covariance: bool = ...,
+        threads: int = ..., time_limit_s: float = ...) -> FitResult: ...
 def evaluate(
         result: Surface, target: Surface, truth: Optional[Surface] = None,
         source: Optional[Surface] = None) -> Evaluation: ...
