@@ -1,12 +1,14 @@
 // ed_apply applies the deformation that ed_fit found to any other cloud.
+#include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/warp_io.h>
 #include <ceres_ed/pipeline/fit/stray_vertices.h>
 #include <ceres_ed/pipeline/outputs.h>
+#include <ceres_ed/preflight/compare_sizes.h>
 #include <ceres_ed/util/options.h>
 
-#include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,16 @@ const OptionTable<ApplySettings>& ApplyRows() {
 
 const OptionFlags<ApplySettings> kFlags(ApplyRows());
 
+// Returns the diagonal of the box around the nodes; 0 for a few nodes, which need not span the
+// body.
+double SizeOfGraph(const Warp& warp) {
+  constexpr int kFewNodes = 8;
+  if (warp.graph.num_nodes() < kFewNodes) return 0.0;
+  Eigen::AlignedBox3d box;
+  for (int j = 0; j < warp.graph.num_nodes(); ++j) box.extend(warp.graph.position(j));
+  return box.diagonal().norm();
+}
+
 Outcome Run(const std::vector<std::string>& arguments) {
   const StatusOr<ApplySettings> settings = kFlags.Read();
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
@@ -50,6 +62,8 @@ Outcome Run(const std::vector<std::string>& arguments) {
   // may hold annotations anywhere.
   if (loaded->cloud.HasTriangles()) LeaveOutStrayVertices(arguments[1], &*loaded);
   PointCloud& cloud = loaded->cloud;
+  const std::optional<SizeMismatch> mismatch = CompareSizes(
+      {"the graph of " + arguments[0], SizeOfGraph(*warp)}, {arguments[1], Diagonal(cloud.points)});
   if (Status status = ApplyWarp(*warp, &cloud); !status.ok()) {
     return Outcome::BadInput(Status::Error(arguments[0] + ": " + status.message()));
   }
@@ -59,10 +73,11 @@ Outcome Run(const std::vector<std::string>& arguments) {
 
   Console console("ed_apply", /*quiet=*/false);
   for (const std::string& warning : loaded->warnings) console.Warn(warning);
-  std::printf("%s: %zu points deformed by %d nodes\n",
-              output.c_str(),
-              cloud.size(),
-              warp->graph.num_nodes());
+  if (mismatch.has_value()) {
+    console.Warn(mismatch->text + "; the warp is in the unit of ed_fit's SOURCE");
+  }
+  console.Summarize(output + ": " + std::to_string(cloud.size()) + " points deformed by " +
+                    std::to_string(warp->graph.num_nodes()) + " nodes\n");
   return Outcome::Done();
 }
 

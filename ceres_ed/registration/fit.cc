@@ -5,6 +5,7 @@
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/geometry/welded_mesh.h>
+#include <ceres_ed/graph/binding.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
 #include <ceres_ed/registration/evidence/measure_evidence.h>
@@ -297,6 +298,13 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
   result_.warp = WarpInSourceFrame(
       graph, state, input_.source.points, unit_from_target_ * result_.rigid, result_.rigid);
   result_.skinning = graph.skinning;
+  if (result_.warp.binding.neighbors == 1) {
+    // A point between two nodes belongs wholly to one of them, and rounding decides to which one:
+    // the binding in the source frame is the one that everybody else finds who applies the warp.
+    StatusOr<Skinning> bound =
+        BindCloudToGraph(input_.source, result_.warp.graph, result_.warp.binding);
+    if (bound.ok()) result_.skinning = *std::move(bound);
+  }
   PointCloud fitted = input_.source;
   const Status applied = ApplyWarp(result_.warp, result_.skinning, &fitted, options_.num_threads);
   CHECK(applied.ok()) << applied.message();

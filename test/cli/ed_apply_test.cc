@@ -50,6 +50,20 @@ ProgramResult Apply(const std::vector<std::string>& arguments) {
   return RunProgramFile(AppPath("ed_apply"), arguments);
 }
 
+TEST(EdApply, WarnsOfACloudInAnotherUnit) {
+  Warp warp;
+  for (int j = 0; j < 12; ++j) warp.graph.AddNode({10.0 * j, 5.0 * (j % 3), 0.0});
+  warp.state.Resize(12);
+  warp.binding.distance = DistanceRule::kEuclidean;
+  const std::string path = TempPath("millimetres.json");
+  ASSERT_TRUE(WriteWarp(path, warp).ok());
+  const ProgramResult result =
+      Apply({path, WriteTriangle(TempPath("in.ply")), "--output=" + TempPath("out.ply")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, HasSubstr("ed_apply: warning: "));
+  EXPECT_THAT(result.err, HasSubstr("times as small as the graph of " + path));
+}
+
 TEST(EdApply, MovesEveryPointAndKeepsAllElse) {
   const std::string out = TempPath("out.ply");
   const ProgramResult result =

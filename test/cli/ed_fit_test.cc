@@ -117,6 +117,19 @@ TEST_F(EdFitTest, WarpDoesWhatTheFitDidWhereVerticesAreStray) {
             1e-7 * kRingDiagonal);
 }
 
+// With one node for each point, a point between two nodes belongs to either of them.
+TEST_F(EdFitTest, OneNodeForEachPointIsTheSameThroughEdApply) {
+  for (const char* finish : {"--finish=true", "--finish=false"}) {
+    ASSERT_EQ(FitPair({"--neighbors=1", "--warp=" + (dir_ / "w.json"), finish}).exit_code, 0);
+    const ProgramResult applied = RunProgramFile(
+        AppPath("ed_apply"),
+        {dir_ / "w.json", dir_ / "source.ply", "--output=" + (dir_ / "applied.ply")});
+    ASSERT_EQ(applied.exit_code, 0) << applied.err;
+    EXPECT_LT(LargestDistance(Load("out.ply").cloud.points, Load("applied.ply").cloud.points),
+              1e-6);
+  }
+}
+
 TEST_F(EdFitTest, WritesTheGraphOfTheReport) {
   ASSERT_EQ(FitPair({"--graph=" + (dir_ / "graph.ply"),
                      "--warp=" + (dir_ / "warp.json"),
@@ -239,6 +252,46 @@ TEST_F(EdFitTest, MultipliesTheSourceByTheRatioOfUnits) {
   WriteBytes(dir_ / "fixed.txt", "0\n");
   ASSERT_EQ(FitPair({spacing, "--scale=1000", "--fixed=" + (dir_ / "fixed.txt")}).exit_code, 0);
   EXPECT_LT((Load("out.ply").cloud.points[0] - RingPoint(0.0, 0.0)).norm(), 1e-3);
+}
+
+TEST_F(EdFitTest, FitsASurfaceToItselfWithoutAComplaint) {
+  const ProgramResult result =
+      RunProgramFile(AppPath("ed_fit"),
+                     {dir_ / "target.ply", dir_ / "target.ply", "--output=" + (dir_ / "out.ply")});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, BackendComplaints());
+  EXPECT_EQ(SplitLines(result.out).back(), "verdict    good");
+}
+
+TEST_F(EdFitTest, SaysNothingOfThreadsThatTheMachineLacks) {
+  for (const char* solver : {"--linear_solver=block", "--linear_solver=ceres"}) {
+    const ProgramResult result = FitPair({solver, "--threads=64", "--quiet"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_EQ(result.err.find("num_threads"), std::string::npos) << result.err;
+  }
+}
+
+TEST_F(EdFitTest, DoubtsWhatOneNodeDoes) {
+  const ProgramResult result = FitPair({"--node_spacing=1e9"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.err.find("the graph has only 1 node"), std::string::npos) << result.err;
+  EXPECT_EQ(SplitLines(result.out).back().find("verdict    good"), std::string::npos) << result.out;
+}
+
+TEST_F(EdFitTest, ShowsNoControlCharactersOfNames) {
+  const std::string name = "red\x1b[31m.ply";
+  const ProgramResult missing = RunProgramFile(
+      AppPath("ed_fit"), {dir_ / name, dir_ / "target.ply", "--output=" + (dir_ / "out.ply")});
+  EXPECT_EQ(missing.exit_code, 2);
+  EXPECT_EQ(missing.err.find('\x1b'), std::string::npos);
+  EXPECT_NE(missing.err.find("red?[31m.ply"), std::string::npos) << missing.err;
+  const ProgramResult written = FitPair({"--output=" + (dir_ / name)});
+  EXPECT_EQ(written.exit_code, 0);
+  EXPECT_EQ((written.out + written.err).find('\x1b'), std::string::npos);
+  EXPECT_TRUE(Exists(name));
+  const ProgramResult flag = RunProgramFile(AppPath("ed_fit"), {"--\x1b[2J"});
+  EXPECT_EQ(flag.exit_code, 1);
+  EXPECT_EQ(flag.err.find('\x1b'), std::string::npos);
 }
 
 TEST_F(EdFitTest, TakesBarePoints) {

@@ -16,6 +16,7 @@ using ::testing::IsEmpty;
 FitResult GoodFit() {
   FitResult result;
   result.status = SolveStatus::kConverged;
+  for (int j = 0; j < 20; ++j) result.warp.graph.AddNode({0.05 * j, 0.0, 0.0});
   FitEvidence& evidence = result.evidence;
   evidence.measured = true;
   evidence.source = {0.97, 0.0, 0.03};
@@ -75,6 +76,12 @@ TEST(FitVerdict, NamesEachFigureThatIsNotAsItShouldBe) {
        Grade::kDoubtful},
       {[](FitResult* r) { r->evidence.residual = 0.006; }, "residual", Grade::kDoubtful},
       {[](FitResult* r) { r->evidence.noise = 0.01; }, "noise", Grade::kDoubtful},
+      {[](FitResult* r) {
+         r->warp.graph = DeformationGraph();
+         r->warp.graph.AddNode({0.0, 0.0, 0.0});
+       },
+       "few_nodes",
+       Grade::kDoubtful},
       {[](FitResult* r) { r->rigid_only = true; }, "rigid_only", Grade::kDoubtful},
       {[](FitResult* r) { r->status = SolveStatus::kTimeLimit; }, "stopped", Grade::kDoubtful},
   };

@@ -1,9 +1,11 @@
+#include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/results/error_cloud.h>
 #include <ceres_ed/pipeline/evaluate/evaluate_run.h>
 #include <ceres_ed/pipeline/evaluate/pair_report.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/preflight/compare_sizes.h>
 #include <ceres_ed/version.h>
 
 #include <string>
@@ -38,6 +40,13 @@ Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer) {
                                Load(settings.source, &source),
                                Load(settings.truth, &truth_cloud)}) {
     if (!status.ok()) return Outcome::BadInput(status);
+  }
+  for (const auto& [name, cloud] : {std::pair(&settings.target, &target),
+                                    std::pair(&settings.source, &source),
+                                    std::pair(&settings.truth, &truth_cloud)}) {
+    const auto mismatch =
+        CompareSizes({settings.fitted, Diagonal(result.points)}, {*name, Diagonal(cloud->points)});
+    if (mismatch.has_value()) observer->OnWarning(mismatch->text);
   }
   const PointCloud* truth = settings.truth.empty() ? nullptr : &truth_cloud;
   const StatusOr<Evaluation> evaluation =

@@ -186,6 +186,17 @@ Verdict JudgeFit(const FitVerdictInput& input) {
                   Percent(result.evidence.folded) + " of the faces are folded over",
                   "check the landmarks, or use a larger --w_reg");
   }
+  const int nodes = result.warp.graph.num_nodes();
+  const int neighbors = result.warp.binding.neighbors;
+  if (nodes <= neighbors) {
+    verdict.Add(Grade::kDoubtful,
+                {"few_nodes",
+                 "the graph has so few nodes (" + std::to_string(nodes) +
+                     ") that the whole body moves as one piece",
+                 static_cast<double>(nodes),
+                 static_cast<double>(neighbors + 1)},
+                "use a smaller --node_spacing");
+  }
   JudgeLandmarks(input, &verdict);
   if (result.status == SolveStatus::kTimeLimit || result.status == SolveStatus::kInterrupted) {
     verdict.Add(Grade::kDoubtful,
