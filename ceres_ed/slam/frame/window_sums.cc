@@ -94,49 +94,49 @@ void Extend(const Quad& quad, int count, double* __restrict low, double* __restr
   }
 }
 
-// The pixels of a ring whose q is less than `least` or greater than `most` do not belong.
-struct RingBounds {
+// Four pixels of a ring in some windows.
+struct RingPart {
+  Quad quad;
+  double k;
   double ring;
+  // Pixels whose q is less than the first bound or greater than the second one do not belong.
   double least;
   double most;
+  // z0 of each window.
+  const double* middle;
 
   bool Contains(double q) const { return (q >= least) & (q <= most); }
 };
 
 // Removes those of four pixels that do not belong to the surface from the sums that contain q.
 CERES_ED_FOR_EACH_MACHINE
-void RemoveInverses(const Quad& quad,
-                    double k,
-                    const RingBounds bounds,
-                    const double* middle,
+void RemoveInverses(const RingPart& part,
                     int count,
                     double* __restrict q,
                     double* __restrict uq,
                     double* __restrict vq,
                     double* __restrict qq) {
-  const auto [pixel_a, pixel_b, pixel_c, pixel_d] = quad;
+  const RingPart p = part;
+  const auto [pixel_a, pixel_b, pixel_c, pixel_d] = p.quad;
   for (int i = 0; i < count; ++i) {
-    const double q_a = middle[i] * pixel_a[i];
-    const double q_b = middle[i] * pixel_b[i];
-    const double q_c = middle[i] * pixel_c[i];
-    const double q_d = middle[i] * pixel_d[i];
-    const double a = bounds.Contains(q_a) ? 0.0 : q_a;
-    const double b = bounds.Contains(q_b) ? 0.0 : q_b;
-    const double c = bounds.Contains(q_c) ? 0.0 : q_c;
-    const double d = bounds.Contains(q_d) ? 0.0 : q_d;
+    const double q_a = p.middle[i] * pixel_a[i];
+    const double q_b = p.middle[i] * pixel_b[i];
+    const double q_c = p.middle[i] * pixel_c[i];
+    const double q_d = p.middle[i] * pixel_d[i];
+    const double a = p.Contains(q_a) ? 0.0 : q_a;
+    const double b = p.Contains(q_b) ? 0.0 : q_b;
+    const double c = p.Contains(q_c) ? 0.0 : q_c;
+    const double d = p.Contains(q_d) ? 0.0 : q_d;
     q[i] -= (a + c) + (b + d);
-    uq[i] -= k * (a - c) + bounds.ring * (b - d);
-    vq[i] -= k * (b - d) - bounds.ring * (a - c);
+    uq[i] -= p.k * (a - c) + p.ring * (b - d);
+    vq[i] -= p.k * (b - d) - p.ring * (a - c);
     qq[i] -= (a * a + c * c) + (b * b + d * d);
   }
 }
 
 // Removes them from the other sums.
 CERES_ED_FOR_EACH_MACHINE
-void RemovePlaces(const Quad& quad,
-                  double k,
-                  const RingBounds bounds,
-                  const double* middle,
+void RemovePlaces(const RingPart& part,
                   int count,
                   double* __restrict n,
                   double* __restrict u,
@@ -144,20 +144,21 @@ void RemovePlaces(const Quad& quad,
                   double* __restrict uu,
                   double* __restrict uv,
                   double* __restrict vv) {
-  const auto [pixel_a, pixel_b, pixel_c, pixel_d] = quad;
-  const double kk = k * k;
-  const double rr = bounds.ring * bounds.ring;
+  const RingPart p = part;
+  const auto [pixel_a, pixel_b, pixel_c, pixel_d] = p.quad;
+  const double kk = p.k * p.k;
+  const double rr = p.ring * p.ring;
   for (int i = 0; i < count; ++i) {
-    const double counted = middle[i] > 0.0 ? 1.0 : 0.0;
-    const double a = bounds.Contains(middle[i] * pixel_a[i]) ? 0.0 : counted;
-    const double b = bounds.Contains(middle[i] * pixel_b[i]) ? 0.0 : counted;
-    const double c = bounds.Contains(middle[i] * pixel_c[i]) ? 0.0 : counted;
-    const double d = bounds.Contains(middle[i] * pixel_d[i]) ? 0.0 : counted;
+    const double counted = p.middle[i] > 0.0 ? 1.0 : 0.0;
+    const double a = p.Contains(p.middle[i] * pixel_a[i]) ? 0.0 : counted;
+    const double b = p.Contains(p.middle[i] * pixel_b[i]) ? 0.0 : counted;
+    const double c = p.Contains(p.middle[i] * pixel_c[i]) ? 0.0 : counted;
+    const double d = p.Contains(p.middle[i] * pixel_d[i]) ? 0.0 : counted;
     n[i] -= (a + c) + (b + d);
-    u[i] -= k * (a - c) + bounds.ring * (b - d);
-    v[i] -= k * (b - d) - bounds.ring * (a - c);
+    u[i] -= p.k * (a - c) + p.ring * (b - d);
+    v[i] -= p.k * (b - d) - p.ring * (a - c);
     uu[i] -= kk * (a + c) + rr * (b + d);
-    uv[i] -= k * bounds.ring * ((b + d) - (a + c));
+    uv[i] -= p.k * p.ring * ((b + d) - (a + c));
     vv[i] -= rr * (a + c) + kk * (b + d);
   }
 }
@@ -327,25 +328,18 @@ WindowSummer::RingRange WindowSummer::RangeOfRing(int from, int to, int ring) co
 }
 
 void WindowSummer::RemoveOutliersOfRing(int from, int to, int ring) {
-  const RingBounds bounds = {static_cast<double>(ring), least_[ring], most_[ring]};
-  const double* middle = &middle_[from];
   const int count = to - from;
   WindowSums& s = sums_;
   for (int k = -ring; k < ring; ++k) {
-    const auto quad = QuadAt(from, k, ring);
-    RemoveInverses(
-        quad, k, bounds, middle, count, &s.q[from], &s.uq[from], &s.vq[from], &s.qq[from]);
-    RemovePlaces(quad,
-                 k,
-                 bounds,
-                 middle,
-                 count,
-                 &s.n[from],
-                 &s.u[from],
-                 &s.v[from],
-                 &s.uu[from],
-                 &s.uv[from],
-                 &s.vv[from]);
+    const RingPart part = {QuadAt(from, k, ring),
+                           static_cast<double>(k),
+                           static_cast<double>(ring),
+                           least_[ring],
+                           most_[ring],
+                           &middle_[from]};
+    RemoveInverses(part, count, &s.q[from], &s.uq[from], &s.vq[from], &s.qq[from]);
+    RemovePlaces(
+        part, count, &s.n[from], &s.u[from], &s.v[from], &s.uu[from], &s.uv[from], &s.vv[from]);
   }
 }
 
