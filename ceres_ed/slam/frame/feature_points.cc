@@ -30,6 +30,8 @@ constexpr int kMostBridged = 2;
 // A corner that is this far from where it was predicted moves in a way that the map does not know,
 // in pixels: more than the method of Lucas and Kanade drifts in these frames.
 constexpr double kUnforeseen = 2.0;
+// It does so with its neighbours, or it is an error: the weight that tells.
+constexpr double kCoherent = 0.5;
 // The most corners that are searched for in a frame, how often in vain before they are forgotten,
 // and the reach of the search in map units and in pixels.
 constexpr std::size_t kMostRecalled = 60;
@@ -154,8 +156,9 @@ void FeaturePoints::Bridge(const std::vector<Eigen::Vector2d>& before,
   for (std::size_t n = 0; n < unknown.size(); ++n) {
     const std::size_t k = unknown[n];
     const double offset = (part[n].pixel - part_predicted[n] - common).norm();
-    int& misses = corners_[corners_.followed()[k]].misses;
-    const bool bridged = part[n].found && (++misses <= kMostBridged || offset > kUnforeseen);
+    Corner& f = corners_[corners_.followed()[k]];
+    const bool is_pulled = offset > kUnforeseen && f.weight > kCoherent;
+    const bool bridged = part[n].found && (++f.misses <= kMostBridged || is_pulled);
     (*tracked)[k].found = bridged;
   }
 }
