@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -16,9 +17,28 @@ namespace ceres_ed {
 namespace {
 
 // The distance at which a point counts half as unmatched, as a fraction of the source's diagonal,
-// and the share below which nothing counts as unmatched.
+// while ways are compared on a coarse graph, which cannot follow details, and on the finest one.
 constexpr double kUnmatchedWidth = 0.02;
-constexpr double kNothingUnmatched = 0.01;
+constexpr double kFineWidth = 0.0025;
+// Noise leaves residuals of this many standard deviations.
+constexpr double kResidualPerNoise = 2.0;
+// So many attempts are followed on the finest graph if they are this near to the best one, and if
+// that one leaves more than a small share unmatched.
+constexpr std::size_t kFinalists = 2;
+constexpr double kFinalistMargin = 0.1;
+// Nodes that two warps move to places this near in the mean make the two the same.
+constexpr double kSameWarp = 0.01;
+// A coarse graph leaves this share unmatched at most where it has followed all of the smaller
+// surface; this is worth so much beyond the share itself, and there are no other finalists.
+constexpr double kExplained = 0.03;
+constexpr double kExplainedBonus = 0.02;
+// If more than this share of the other surface is unmatched, one shows only a part of the other.
+constexpr double kPartial = 0.2;
+// An attempt falls behind if, in one of so many steps before the last one, it is not to be expected
+// any more that it reaches the best one: a step gains at most about these shares.
+constexpr int kForeseenSteps = 2;
+constexpr double kGainAtLeast = 0.05;
+constexpr double kGainPerStep = 0.05;
 // The same distance for the check against the rigid placement, which compares two states of which
 // both may be near the target: it is smaller, but not below a multiple of the noise.
 constexpr double kCheckWidth = 0.005;
@@ -33,6 +53,15 @@ constexpr double kOwnEnergyMargin = 0.02;
 // spacings.
 constexpr int kCarryingEdges = 12;
 constexpr double kCarryingReach = 1.5;
+// Returns the mean distance between the places to which two states move the nodes.
+double MeanDistance(const DeformationState& a, const DeformationState& b) {
+  double sum = 0.0;
+  for (int j = 0; j < a.num_nodes(); ++j) {
+    sum += (NodeTranslation(a.node(j)) - NodeTranslation(b.node(j))).norm();
+  }
+  return a.num_nodes() > 0 ? sum / a.num_nodes() : 0.0;
+}
+
 bool EndedEarly(const FitResult& result) {
   return result.status != SolveStatus::kConverged && result.status != SolveStatus::kMaxIterations;
 }
@@ -127,55 +156,134 @@ Status CoarseToFine::RunResolution(int resolution,
   return Status::Ok();
 }
 
-Status CoarseToFine::FollowCoarse(const Hypothesis& hypothesis,
-                                  const std::vector<ResolutionPlan>& plans,
-                                  DeformationState* state,
-                                  int* reached,
-                                  FitResult* result) const {
-  const int last = static_cast<int>(graphs_.size()) - 1;
-  *state = StartOf(hypothesis, fit_, graphs_[0]);
+Status CoarseToFine::FollowCoarse(double best, Attempt* attempt, FitResult* result) const {
+  const int last = LastGraph();
+  attempt->state = StartOf(attempt->hypothesis, fit_, graphs_[0]);
   for (int resolution = 0; resolution < last; ++resolution) {
-    ResolutionPlan plan = plans[resolution];
-    plan.loss_width = hypothesis.loss_width;
-    plan.max_angle_deg = hypothesis.max_angle_deg;
-    plan.max_distance = hypothesis.max_distance;
-    plan.first_stiffness *= hypothesis.stiffness;
-    plan.last_stiffness *= hypothesis.stiffness;
     if (resolution > 0) {
-      *state = CarryOver(graphs_[resolution - 1], *state, resolution);
+      attempt->state = CarryOver(graphs_[resolution - 1], attempt->state, resolution);
     }
-    *reached = resolution;
-    if (Status status = RunResolution(resolution, plan, state, result); !status.ok()) return status;
+    attempt->graph = resolution;
+    ResolutionPlan plan = attempt->hypothesis.Apply(plans_[resolution], /*is_finest=*/false);
+    plan.progress_begin *= attempt->progress;
+    plan.progress_end *= attempt->progress;
+    plan.unmatched_width = kUnmatchedWidth;
+    bool has_fallen_behind = false;
+    const int steps = plan.steps;
+    plan.keep_going = [&](int step, const Unmatched& unmatched) {
+      const int remaining = steps - 1 - step;
+      const double gain = kGainAtLeast + kGainPerStep * remaining;
+      has_fallen_behind = remaining <= kForeseenSteps && MeanAmongWays(unmatched) - gain > best;
+      return !has_fallen_behind;
+    };
+    Status status = RunResolution(resolution, plan, &attempt->state, result);
+    if (!status.ok()) return status;
     if (EndedEarly(*result)) break;
+    if (has_fallen_behind) return Status::Ok();
   }
+  attempt->is_whole = true;
+  const Explanation left =
+      MeasureExplanation(fit_, graphs_[attempt->graph], attempt->state, kUnmatchedWidth);
+  // What noise leaves unmatched by itself.
+  const double by_noise = std::pow(kResidualPerNoise * fit_.noise / kUnmatchedWidth, 2);
+  const auto [better, worse] = std::minmax(left.unmatched.source, left.unmatched.target);
+  attempt->unmatched = better - by_noise;
+  attempt->is_explained = attempt->unmatched < kExplained;
+  attempt->is_partial = worse > kPartial;
+  attempt->left = left.AmongWays() + attempt->hypothesis.handicap -
+                  (attempt->is_explained ? kExplainedBonus : 0.0);
   return Status::Ok();
 }
 
-Status CoarseToFine::ChooseHypothesis(const std::vector<ResolutionPlan>& plans,
-                                      double* loss_width,
-                                      FitResult* result) {
-  double best = std::numeric_limits<double>::infinity();
-  WayAgreement ways;
-  for (const Hypothesis& hypothesis : ListHypotheses(fit_)) {
-    DeformationState state;
-    int reached = 0;
-    if (Status status = FollowCoarse(hypothesis, plans, &state, &reached, result); !status.ok()) {
-      return status;
-    }
-    const Explanation left = MeasureExplanation(fit_, graphs_[reached], state, kUnmatchedWidth);
-    ways.Add(*fit_.source, graphs_[reached], state, left.AmongWays());
-    if (left.AmongWays() < best) {
-      best = left.AmongWays();
-      *loss_width = hypothesis.loss_width;
-      result->hypothesis = hypothesis.name;
-      graph_ = reached;
-      state_ = std::move(state);
+Status CoarseToFine::TryHypotheses(std::vector<Attempt>* attempts, FitResult* result) const {
+  const std::vector<Hypothesis> hypotheses = ListHypotheses(fit_);
+  double unmatched = std::numeric_limits<double>::infinity();
+  double best = unmatched;
+  bool is_partial = true;
+  for (std::size_t i = 0; i < hypotheses.size(); ++i) {
+    const Hypothesis& hypothesis = hypotheses[i];
+    const bool is_needed =
+        unmatched >= hypothesis.needed_above || (is_partial && hypothesis.needed_if_partial);
+    if (!is_needed) continue;
+    Attempt attempt;
+    attempt.hypothesis = hypothesis;
+    attempt.progress = static_cast<double>(i + 1) / static_cast<double>(hypotheses.size());
+    if (Status status = FollowCoarse(best, &attempt, result); !status.ok()) return status;
+    if (attempt.is_whole) {
+      unmatched = std::min(unmatched, attempt.unmatched);
+      best = std::min(best, attempt.left);
+      is_partial = is_partial && attempt.is_partial;
+      attempts->push_back(std::move(attempt));
     }
     if (EndedEarly(*result)) break;
-    // Everything that the smaller surface shows is explained, so another way cannot be better.
-    if (std::min(left.unmatched.source, left.unmatched.target) < kNothingUnmatched) break;
+  }
+  std::stable_sort(attempts->begin(), attempts->end(), [](const Attempt& a, const Attempt& b) {
+    return a.left < b.left;
+  });
+  // The best careful way and the best bold one are compared.
+  WayAgreement ways;
+  std::set<double> widths;
+  for (const Attempt& attempt : *attempts) {
+    if (!widths.insert(attempt.hypothesis.loss_width).second) continue;
+    ways.Add(*fit_.source, graphs_[attempt.graph], attempt.state, attempt.left);
   }
   result->evidence.disagreement = ways.Disagreement();
+  return Status::Ok();
+}
+
+void CoarseToFine::KeepFinalists(std::vector<Attempt>* attempts) const {
+  std::vector<Attempt> finalists;
+  for (Attempt& attempt : *attempts) {
+    const bool is_near = finalists.empty() || attempt.left < finalists[0].left + kFinalistMargin;
+    const bool is_new =
+        std::none_of(finalists.begin(), finalists.end(), [&](const Attempt& finalist) {
+          return attempt.graph == finalist.graph &&
+                 MeanDistance(attempt.state, finalist.state) < kSameWarp;
+        });
+    if (is_near && is_new) finalists.push_back(std::move(attempt));
+    if (finalists.size() == kFinalists || finalists[0].is_explained) break;
+  }
+  *attempts = std::move(finalists);
+}
+
+void CoarseToFine::Take(Attempt attempt, FitResult* result) {
+  graph_ = attempt.graph;
+  state_ = std::move(attempt.state);
+  result->hypothesis = attempt.hypothesis.name;
+}
+
+Status CoarseToFine::FollowFine(std::vector<Attempt> attempts, FitResult* result) {
+  const int last = LastGraph();
+  FitResult best_result;
+  const double width = std::max(kFineWidth, kCheckWidthPerNoise * fit_.noise);
+  for (std::size_t i = 0; i < attempts.size(); ++i) {
+    Attempt& attempt = attempts[i];
+    FitResult trial = *result;
+    attempt.state = CarryOver(graphs_[attempt.graph], attempt.state, last);
+    attempt.graph = last;
+    const ResolutionPlan plan = attempt.hypothesis.Apply(plans_[last], /*is_finest=*/true);
+    Status status = RunResolution(last, plan, &attempt.state, &trial);
+    if (!status.ok()) return status;
+    if (attempts.size() > 1) {
+      attempt.left = MeasureExplanation(fit_, graphs_[last], attempt.state, width).AmongWays() +
+                     attempt.hypothesis.handicap;
+    }
+    // What the trials have cost is counted, whichever is taken.
+    result->times = trial.times;
+    result->outer_iterations = trial.outer_iterations;
+    result->solver_iterations = trial.solver_iterations;
+    const bool is_stopped = EndedEarly(trial);
+    if (i == 0 || (!is_stopped && attempt.left < attempts[0].left)) {
+      best_result = std::move(trial);
+      if (i > 0) std::swap(attempts[0], attempts[i]);
+    }
+    if (is_stopped) break;
+  }
+  best_result.times = result->times;
+  best_result.outer_iterations = result->outer_iterations;
+  best_result.solver_iterations = result->solver_iterations;
+  *result = std::move(best_result);
+  Take(std::move(attempts[0]), result);
   return Status::Ok();
 }
 
@@ -183,25 +291,24 @@ Status CoarseToFine::Run(FitResult* result) {
   if (Status status = BuildGraphs(fit_.options->schedule.levels, result); !status.ok()) {
     return status;
   }
-  const std::vector<ResolutionPlan> plans = PlanResolutions(fit_, static_cast<int>(graphs_.size()));
-  const int last = static_cast<int>(graphs_.size()) - 1;
-  if (MustEnd(fit_, result)) {
-    graph_ = last;
-    state_ = DeformationState(graphs_[last].graph.num_nodes());
+  plans_ = PlanResolutions(fit_, static_cast<int>(graphs_.size()));
+  const int last = LastGraph();
+  graph_ = last;
+  state_ = DeformationState(graphs_[last].graph.num_nodes());
+  if (MustEnd(fit_, result)) return Status::Ok();
+  if (last == 0) {
+    Status status = RunResolution(last, plans_[last], &state_, result);
+    if (status.ok()) KeepTheBetter(result);
+    return status;
+  }
+  std::vector<Attempt> attempts;
+  if (Status status = TryHypotheses(&attempts, result); !status.ok()) return status;
+  if (EndedEarly(*result)) {
+    Take(std::move(attempts[0]), result);
     return Status::Ok();
   }
-  // The coarse graphs are fitted in each way; the finest one starts from the best coarse state.
-  ResolutionPlan plan = plans[last];
-  plan.loss_width = fit_.options->loss_width;
-  if (last > 0) {
-    Status status = ChooseHypothesis(plans, &plan.loss_width, result);
-    if (!status.ok() || EndedEarly(*result)) return status;
-    state_ = CarryOver(graphs_[graph_], state_, last);
-  } else {
-    state_ = DeformationState(graphs_[last].graph.num_nodes());
-  }
-  graph_ = last;
-  Status status = RunResolution(last, plan, &state_, result);
+  KeepFinalists(&attempts);
+  Status status = FollowFine(std::move(attempts), result);
   if (status.ok()) KeepTheBetter(result);
   return status;
 }

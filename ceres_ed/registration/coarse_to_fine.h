@@ -29,6 +29,25 @@ class CoarseToFine {
   const DeformationState& state() const { return state_; }
 
  private:
+  // What a hypothesis has come to.
+  struct Attempt {
+    Hypothesis hypothesis;
+    // The graph that it has reached, and the state of its nodes.
+    int graph = 0;
+    DeformationState state;
+    // Whether it has come to its end; otherwise it fell behind the best one.
+    bool is_whole = false;
+    // What it leaves to explain, and the unmatched share of the surface that is explained better,
+    // beyond what noise leaves.
+    double left = 0.0;
+    double unmatched = 0.0;
+    // Whether nothing of that surface is left, and whether much of the other one is.
+    bool is_explained = false;
+    bool is_partial = false;
+    // The part of the progress on coarse graphs that is reached with it.
+    double progress = 1.0;
+  };
+
   Status BuildGraphs(int resolutions, FitResult* result);
   // Returns the state of the nodes of `resolution` under the warp of `graph`.
   DeformationState CarryOver(const BuiltGraph& graph,
@@ -39,17 +58,18 @@ class CoarseToFine {
                        const ResolutionPlan& plan,
                        DeformationState* state,
                        FitResult* result) const;
-  // Runs all resolutions but the last one in one way; `reached` is the resolution of `state`.
-  Status FollowCoarse(const Hypothesis& hypothesis,
-                      const std::vector<ResolutionPlan>& plans,
-                      DeformationState* state,
-                      int* reached,
-                      FitResult* result) const;
-  // Tries the hypotheses, and stores the state that leaves least to explain, and its graph.
-  // `loss_width` becomes that of the hypothesis.
-  Status ChooseHypothesis(const std::vector<ResolutionPlan>& plans,
-                          double* loss_width,
-                          FitResult* result);
+  // Follows the target on all graphs but the finest one, and measures the result. An attempt that
+  // cannot reach what the best one leaves to explain is given up.
+  Status FollowCoarse(double best, Attempt* attempt, FitResult* result) const;
+  // Tries the hypotheses that are needed; the attempts are sorted, the best first.
+  Status TryHypotheses(std::vector<Attempt>* attempts, FitResult* result) const;
+  // Keeps the best attempt, and another one that is near to it and not the same warp.
+  void KeepFinalists(std::vector<Attempt>* attempts) const;
+  // Follows the target on the finest graph from each of `attempts`, and keeps the best.
+  Status FollowFine(std::vector<Attempt> attempts, FitResult* result);
+  // Makes the state of `attempt` that of the fit.
+  void Take(Attempt attempt, FitResult* result);
+  int LastGraph() const { return static_cast<int>(graphs_.size()) - 1; }
   // Returns to the rigid placement, with a warning, if the deformation explains less of the
   // surfaces. With energies of the user, which may ask for something else, it must explain clearly
   // less.
@@ -57,6 +77,8 @@ class CoarseToFine {
   UnitFit fit_;
   // The graphs from coarse to fine.
   std::vector<BuiltGraph> graphs_;
+  // What is done on each of them.
+  std::vector<ResolutionPlan> plans_;
   int graph_ = 0;
   DeformationState state_;
 };

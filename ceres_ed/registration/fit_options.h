@@ -187,7 +187,7 @@ struct FitOptions {
   // On the coarse graphs a careful way is tried as well, with a narrower loss (> 0, default 5) and
   // normals that agree better (degrees, (0, 180], default 50): limbs far from their place do not
   // move until the parts that support them are near, whereas the bold way moves them at once. The
-  // fit continues with the way that leaves less unmatched.
+  // fit continues with the way that leaves least to explain (hypotheses/explanation.h).
   double careful_loss_width = 5.0;
   double careful_angle_deg = 50.0;
   // The hypotheses that are tried on the coarse graphs, with commas between; empty, the default,

@@ -4,6 +4,8 @@
 #include <ceres_ed/util/parallel.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 #include <Eigen/Geometry>
 
@@ -50,6 +52,31 @@ double MovingSamples::LostArea(const DeformationState& state) const {
     total += area;
   }
   return total > 0.0 ? lost / total : 0.0;
+}
+
+double MovingSamples::Stretch(const DeformationState& state, double quantile) const {
+  constexpr double kLeastLength = 1e-3;
+  std::vector<double> stretches;
+  stretches.reserve(samples_.size());
+  for (const int point : samples_) {
+    const Eigen::Matrix3d A = WarpGradient(state, graph_->skinning[point]);
+    const Eigen::Vector3d& normal = source_->cloud().normals[point];
+    const Eigen::Vector3d along = normal.unitOrthogonal();
+    // The eigenvalues of the metric of the warped tangent plane are the squared singular values.
+    const Eigen::Vector3d u = A * along;
+    const Eigen::Vector3d v = A * normal.cross(along);
+    const double mean = 0.5 * (u.squaredNorm() + v.squaredNorm());
+    const double spread = std::hypot(0.5 * (u.squaredNorm() - v.squaredNorm()), u.dot(v));
+    const auto change = [&](double squared) {
+      const double length = std::sqrt(std::max(squared, 0.0));
+      return std::abs(std::log(std::clamp(length, kLeastLength, 1.0 / kLeastLength)));
+    };
+    stretches.push_back(std::max(change(mean - spread), change(mean + spread)));
+  }
+  if (stretches.empty()) return 0.0;
+  const auto place = static_cast<std::ptrdiff_t>(quantile * (stretches.size() - 1.0));
+  std::nth_element(stretches.begin(), stretches.begin() + place, stretches.end());
+  return stretches[static_cast<std::size_t>(place)];
 }
 
 }  // namespace ceres_ed

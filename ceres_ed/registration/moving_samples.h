@@ -29,6 +29,11 @@ class MovingSamples {
   // onto a surface that does not show it collapses.
   double LostArea(const DeformationState& state) const;
 
+  // Returns the change of length that `state` exceeds in the part 1 - `quantile` of the samples: at
+  // each of them it is the larger one of |log s| over the two singular values s of the warp in the
+  // tangent plane. 0 if there are no samples; no value is above log 1000.
+  double Stretch(const DeformationState& state, double quantile) const;
+
   // Returns the samples at their present positions; the result refers to this object.
   MovedSource Moved() const { return {source_, &samples_, &points_, &normals_}; }
 

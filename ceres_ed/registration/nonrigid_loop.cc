@@ -50,6 +50,8 @@ class NonrigidLoop {
   SolveSummary Solve(int max_iterations);
   void MeasureInitialEnergy();
   bool Stopped() { return MustEnd(fit_, result_); }
+  // Asks whether the next step is worth its time.
+  bool KeepsGoing(int step) const;
   void Report(double part) const;
 
   const UnitFit& fit_;
@@ -84,7 +86,6 @@ void NonrigidLoop::Match() {
   const Timer timer;
   MatchingOptions matching = options_.matching;
   matching.max_angle_deg = plan_.max_angle_deg;
-  matching.max_distance = std::min(matching.max_distance, plan_.max_distance);
   matching.with_details = !options_.extra_energies.empty();
   result_->matches = MatchBothWays(moving_.Moved(), *target_, target_samples_, matching, &memory_);
   const double width =
@@ -147,6 +148,14 @@ void NonrigidLoop::TakeSamples(int count) {
   memory_ = {};
 }
 
+bool NonrigidLoop::KeepsGoing(int step) const {
+  if (!plan_.keep_going || target_ == nullptr || step + 1 == plan_.steps) return true;
+  return plan_.keep_going(
+      step,
+      FindUnmatched(
+          moving_.Moved(), *target_, target_samples_, plan_.unmatched_width, options_.matching));
+}
+
 void NonrigidLoop::Run() {
   const FitSchedule& schedule = options_.schedule;
   TakeSamples(plan_.samples);
@@ -165,6 +174,7 @@ void NonrigidLoop::Run() {
       Report(plan_.progress_begin + done * (plan_.progress_end - plan_.progress_begin));
       if (outcome != RoundOutcome::kMoving) break;
     }
+    if (outcome != RoundOutcome::kStopped && !KeepsGoing(step)) break;
   }
   if (outcome != RoundOutcome::kStopped) {
     const bool still = outcome == RoundOutcome::kStill;

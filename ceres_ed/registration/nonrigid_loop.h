@@ -5,10 +5,11 @@
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/registration/fit_types.h>
+#include <ceres_ed/registration/matching.h>
 #include <ceres_ed/registration/unit_fit.h>
 #include <ceres_ed/solver/strategy.h>
 
-#include <limits>
+#include <functional>
 #include <vector>
 
 namespace ceres_ed {
@@ -26,11 +27,14 @@ struct ResolutionPlan {
   double loss_width = 10.0;
   // The largest angle between the normals of a pair, in degrees.
   double max_angle_deg = 75.0;
-  // No pair is farther apart than this, in the unit frame.
-  double max_distance = std::numeric_limits<double>::infinity();
   // The number of points of each surface that are matched, and that number in the last step.
   int samples = 1000;
   int last_samples = 1000;
+  // Called after each step but the last one with the share of the surfaces that is unmatched, if it
+  // is set; if it returns false, the resolution ends there.
+  std::function<bool(int step, const Unmatched& unmatched)> keep_going;
+  // The distance at which a point counts half as unmatched for `keep_going`, in the unit frame.
+  double unmatched_width = 0.02;
   // The progress of the whole fit before and after this resolution, in [0, 1].
   double progress_begin = 0.0;
   double progress_end = 1.0;

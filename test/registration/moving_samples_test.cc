@@ -32,5 +32,19 @@ TEST(MovingSamples, LoseTheAreaThatFallsBelowHalf) {
   EXPECT_NEAR(samples.LostArea(Scaled(nodes, 0.0, 1.0)), 1.0, 1e-12);
 }
 
+TEST(MovingSamples, StretchAsTheLogarithmOfTheirLengths) {
+  const Surface sheet(MakeGridMesh(30, 30));
+  GraphOptions options;
+  options.node_spacing = 6.0;
+  const StatusOr<BuiltGraph> graph = BuildGraph(sheet.cloud(), sheet.topology(), options);
+  ASSERT_TRUE(graph.ok()) << graph.status().message();
+  const MovingSamples samples(sheet, *graph, 500);
+  const int nodes = graph->graph.num_nodes();
+  EXPECT_NEAR(samples.Stretch(DeformationState(nodes), 0.9), 0.0, 1e-12);
+  EXPECT_NEAR(samples.Stretch(Scaled(nodes, 1.3, 0.9), 0.9), std::log(1.3), 1e-12);
+  EXPECT_NEAR(samples.Stretch(Scaled(nodes, 1.1, 0.5), 0.9), std::log(2.0), 1e-12);
+  EXPECT_NEAR(samples.Stretch(Scaled(nodes, 0.0, 1.0), 0.9), std::log(1000.0), 1e-9);
+}
+
 }  // namespace
 }  // namespace ceres_ed

@@ -9,15 +9,21 @@
 
 namespace ceres_ed {
 
+// Returns a mean of the unmatched shares in which the target has most of the weight, because it is
+// all that is known, whereas much of the source may be hidden from it.
+double MeanAmongWays(const Unmatched& unmatched);
+
 // How well a deformation explains the two surfaces, and at what price.
 struct Explanation {
   Unmatched unmatched;
   // The share of the source's area that is squeezed away (MovingSamples::LostArea).
   double lost_area = 0.0;
+  // The change of length that a tenth of the source's area exceeds (MovingSamples::Stretch).
+  double stretch = 0.0;
 
-  // Returns what is left to explain when ways to follow the target are compared. A way that
-  // squeezes the source onto the target has matched it at no gain. The target has most of the
-  // weight, because it is all that is known, whereas much of the source may be hidden from it.
+  // Returns what is left to explain when ways to follow the target are compared: the mean above,
+  // and the price. A way that stretches the source, or squeezes it onto the target, has matched it
+  // at no gain.
   double AmongWays() const;
   // Returns what is left to explain in the comparison with the rigid placement, in which the
   // surface that is explained better has most of the weight: what nobody sees is no evidence.

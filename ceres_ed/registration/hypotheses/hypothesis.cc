@@ -10,38 +10,75 @@ namespace ceres_ed {
 namespace {
 
 // How strict a hypothesis is about pairs; the values are options of the fit.
-enum class Manner { kCareful, kBold };
+enum class Manner {
+  // A narrow loss and strict normals on the coarse graphs: limbs that are far from the target wait
+  // until the part that carries them is near.
+  kCareful,
+  // A wide loss and loose normals: limbs move at once.
+  kBold,
+  // A narrow loss, and strict normals on the finest graph, too: nothing turns to a wrong limb.
+  kStrict,
+};
 
 // What is fixed about a hypothesis.
 struct Recipe {
   const char* name;
   HypothesisStart start;
   Manner manner;
-  double max_distance;
-  double stiffness;
+  double needed_above;
 };
 
-constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+// Less than this share is nothing, and less than that is little: what a coarse graph cannot follow.
+constexpr double kNothing = 0.01;
+constexpr double kLittle = 0.03;
 
-// The hypotheses in the order in which they are tried. Limbs that are far from the target wait in
-// the careful way until the part that carries them is near; the bold way moves them at once.
+// The hypotheses in the order in which they are tried.
 constexpr Recipe kRecipes[] = {
-    {"careful", HypothesisStart::kPlaced, Manner::kCareful, kAnyDistance, 1.0},
-    {"bold", HypothesisStart::kPlaced, Manner::kBold, kAnyDistance, 1.0},
+    {"careful", HypothesisStart::kPlaced, Manner::kCareful, 0.0},
+    {"bold", HypothesisStart::kPlaced, Manner::kBold, kNothing},
+    {"given_careful", HypothesisStart::kGiven, Manner::kCareful, kLittle},
+    {"given_bold", HypothesisStart::kGiven, Manner::kBold, kLittle},
+    {"strict", HypothesisStart::kPlaced, Manner::kStrict, kLittle},
 };
 
-Hypothesis MakeHypothesis(const Recipe& recipe, const FitOptions& options) {
+// How far the rigid stage has moved the source from the given pose, as a part of its diagonal. The
+// unit frame has the source's centre as its origin, and its diagonal as the unit.
+double MotionFromGiven(const UnitFit& fit) {
+  const Similarity& motion = fit.given_from_placed;
+  const double angle = motion.rotation.angularDistance(Eigen::Quaterniond::Identity());
+  return motion.translation.norm() + 0.5 * angle;
+}
+
+// The angle of the strict manner, as a part of that of the careful one.
+constexpr double kStrictness = 0.9;
+// A motion below the first of these is none; above the second one it is far.
+constexpr double kLeastMotion = 0.01;
+constexpr double kFarMotion = 0.25;
+// The handicap of a hypothesis that starts far from the given pose.
+constexpr double kFarHandicap = 0.01;
+
+Hypothesis MakeHypothesis(const Recipe& recipe, const UnitFit& fit) {
+  const FitOptions& options = *fit.options;
+  const double motion = MotionFromGiven(fit);
   const double bold_angle = options.matching.max_angle_deg;
+  const double careful_angle = std::min(options.careful_angle_deg, bold_angle);
   Hypothesis hypothesis;
   hypothesis.name = recipe.name;
   hypothesis.start = recipe.start;
-  hypothesis.loss_width =
-      recipe.manner == Manner::kCareful ? options.careful_loss_width : options.loss_width;
-  hypothesis.max_angle_deg = recipe.manner == Manner::kCareful
-                                 ? std::min(options.careful_angle_deg, bold_angle)
-                                 : bold_angle;
-  hypothesis.max_distance = recipe.max_distance;
-  hypothesis.stiffness = recipe.stiffness;
+  const bool is_bold = recipe.manner == Manner::kBold;
+  hypothesis.loss_width = is_bold ? options.loss_width : options.careful_loss_width;
+  hypothesis.coarse_angle_deg = is_bold ? bold_angle : careful_angle;
+  hypothesis.fine_angle_deg = bold_angle;
+  if (recipe.manner == Manner::kStrict) {
+    hypothesis.coarse_angle_deg = kStrictness * careful_angle;
+    hypothesis.fine_angle_deg = hypothesis.coarse_angle_deg;
+  }
+  hypothesis.needed_above = recipe.needed_above;
+  if (recipe.start == HypothesisStart::kPlaced) {
+    hypothesis.handicap = kFarHandicap * std::min(1.0, motion / (2.0 * kFarMotion));
+  } else {
+    hypothesis.needed_if_partial = motion > kFarMotion && recipe.manner == Manner::kCareful;
+  }
   return hypothesis;
 }
 
@@ -52,17 +89,13 @@ std::vector<std::string> Split(const std::string& names) {
   return parts;
 }
 
-// Returns whether the given pose is a start of its own.
-bool IsStart(const UnitFit& fit, HypothesisStart start) {
-  constexpr double kLeastMotion = 0.01;
-  if (start == HypothesisStart::kPlaced) return true;
-  const Similarity& motion = fit.given_from_placed;
-  const double angle = motion.rotation.angularDistance(Eigen::Quaterniond::Identity());
-  // The unit frame has the source's centre as its origin, and its diagonal as the unit.
-  return motion.translation.norm() + 0.5 * angle > kLeastMotion;
-}
-
 }  // namespace
+
+ResolutionPlan Hypothesis::Apply(ResolutionPlan plan, bool is_finest) const {
+  plan.loss_width = loss_width;
+  plan.max_angle_deg = is_finest ? fine_angle_deg : coarse_angle_deg;
+  return plan;
+}
 
 std::vector<std::string> HypothesisNames() {
   std::vector<std::string> names;
@@ -92,11 +125,13 @@ std::vector<Hypothesis> ListHypotheses(const UnitFit& fit) {
   for (const Recipe& recipe : kRecipes) {
     const bool is_chosen =
         chosen.empty() || std::find(chosen.begin(), chosen.end(), recipe.name) != chosen.end();
-    if (!is_chosen || !IsStart(fit, recipe.start)) continue;
-    hypotheses.push_back(MakeHypothesis(recipe, options));
+    const bool is_start =
+        recipe.start == HypothesisStart::kPlaced || MotionFromGiven(fit) > kLeastMotion;
+    if (!is_chosen || !is_start) continue;
+    hypotheses.push_back(MakeHypothesis(recipe, fit));
     if (is_one_way) break;
   }
-  if (hypotheses.empty()) hypotheses.push_back(MakeHypothesis(kRecipes[0], options));
+  if (hypotheses.empty()) hypotheses.push_back(MakeHypothesis(kRecipes[0], fit));
   return hypotheses;
 }
 
