@@ -13,6 +13,7 @@
 #include <ceres_ed/registration/finish/vertex_finish.h>
 #include <ceres_ed/registration/fit_progress.h>
 #include <ceres_ed/registration/fit_validation.h>
+#include <ceres_ed/registration/normal_spread.h>
 #include <ceres_ed/registration/placement.h>
 #include <ceres_ed/registration/prepared_surface.h>
 #include <ceres_ed/util/timer.h>
@@ -77,6 +78,16 @@ Similarity GivenFromPlaced(const Similarity& placed,
   motion = unit_from_target * motion * unit_from_target.Inverse();
   motion.scale = 1.0;
   return motion;
+}
+
+// Returns the part of the point-to-point share that a fit needs. Planes hold a body whose normals
+// point everywhere, and points only delay it; they do not hold a sheet within itself.
+double ShareOfPoints(const Surface& source, const Surface& target) {
+  // With this spread of the normals (a third of a sphere's) the planes hold a surface.
+  constexpr double kHeld = 0.1;
+  constexpr double kShareOfHeld = 0.4;
+  const double spread = std::min(LeastNormalSpread(source), LeastNormalSpread(target));
+  return 1.0 - (1.0 - kShareOfHeld) * std::min(1.0, spread / kHeld);
 }
 
 std::vector<Correspondence> InUnitFrame(const std::vector<Landmark>& constraints,
@@ -202,6 +213,7 @@ FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) con
     const double edge =
         std::min(MeanEdgeLength(source.topology()), MeanEdgeLength(target->topology()));
     options.matching.resolution = std::max(0.1 * edge, 1e-4);
+    options.weights.point_to_point_share *= ShareOfPoints(source, *target);
   }
   return options;
 }

@@ -124,7 +124,7 @@ const OptionTable<FitWeights>& FitWeights::Rows() {
       Row(&O::fixed, "w_fixed", "The weight of the points that must not move.").In(AtLeast(0)),
       Row(&O::point_to_point_share,
           "point_to_point_share",
-          "The share of w_data that goes to point-to-point; the rest is point-to-plane.")
+          "The share of w_data that goes to point-to-point for a sheet; a closed body has less.")
           .In(Between(0, 1)),
   });
   return rows;

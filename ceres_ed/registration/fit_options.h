@@ -115,7 +115,8 @@ struct FitWeights {
   double landmark = 10.0;
   double fixed = 1e4;
   // The share of the data weight that goes to point-to-point distances; the rest is point-to-plane.
-  // [0, 1], default 0.005.
+  // This much for a flat sheet, and two fifths of it for a body whose normals point everywhere. [0,
+  // 1], default 0.005.
   double point_to_point_share = 0.005;
 
   // Returns the options as data: the name, range and text of each.

@@ -35,18 +35,18 @@ constexpr Ingredient kIngredients[] = {
     {"two_levels",
      "one graph, the fine one",
      [](FitOptions* options) { options->schedule.levels = 1; }},
-    {"careful_way",
-     "few nodes follow the bold way alone",
-     [](FitOptions* options) {
-       options->careful_loss_width = options->loss_width;
-       options->careful_angle_deg = options->matching.max_angle_deg;
-     }},
-    {"bold_way",
-     "the careful way alone, to the end",
-     [](FitOptions* options) {
-       options->loss_width = options->careful_loss_width;
-       options->matching.max_angle_deg = options->careful_angle_deg;
-     }},
+    {"careful_ways",
+     "few nodes follow the bold ways alone",
+     [](FitOptions* options) { options->hypotheses = "bold,given_bold"; }},
+    {"bold_ways",
+     "few nodes follow the careful ways alone",
+     [](FitOptions* options) { options->hypotheses = "careful,given_careful,strict"; }},
+    {"given_pose",
+     "every way starts from the rigid placement",
+     [](FitOptions* options) { options->hypotheses = "careful,bold,strict"; }},
+    {"strict_way",
+     "no way has stricter normals than the careful one",
+     [](FitOptions* options) { options->hypotheses = "careful,bold,given_careful,given_bold"; }},
     {"robust_loss",
      "squared distances while nodes move",
      [](FitOptions* options) { options->loss = LossType::kSquared; }},
