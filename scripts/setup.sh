@@ -28,7 +28,7 @@ add_list() {
     fit)
       # libceres-dev depends on SuiteSparse, Eigen, glog and gflags; the runtime of OpenBLAS can be linked.
       add g++ cmake ninja-build libceres-dev libeigen3-dev libsuitesparse-dev libgoogle-glog-dev libgflags-dev \
-        libopenblas0-pthread libnanoflann-dev nlohmann-json3-dev
+        libopenblas0-pthread libnanoflann-dev libspectra-dev nlohmann-json3-dev
       ;;
     tracking)
       add_list fit
