@@ -5,6 +5,7 @@
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/registration/fit_uncertainty.h>
 #include <ceres_ed/registration/hypotheses/explanation.h>
+#include <ceres_ed/registration/intrinsic/intrinsic_start.h>
 
 #include <algorithm>
 #include <cmath>
@@ -158,7 +159,6 @@ Status CoarseToFine::RunResolution(int resolution,
 
 Status CoarseToFine::FollowCoarse(double best, Attempt* attempt, FitResult* result) const {
   const int last = LastGraph();
-  attempt->state = StartOf(attempt->hypothesis, fit_, graphs_[0]);
   for (int resolution = 0; resolution < last; ++resolution) {
     if (resolution > 0) {
       attempt->state = CarryOver(graphs_[resolution - 1], attempt->state, resolution);
@@ -188,6 +188,7 @@ Status CoarseToFine::FollowCoarse(double best, Attempt* attempt, FitResult* resu
   const double by_noise = std::pow(kResidualPerNoise * fit_.noise / kUnmatchedWidth, 2);
   const auto [better, worse] = std::minmax(left.unmatched.source, left.unmatched.target);
   attempt->unmatched = better - by_noise;
+  attempt->worse = worse - by_noise + left.lost_area;
   attempt->is_explained = attempt->unmatched < kExplained;
   attempt->is_partial = worse > kPartial;
   attempt->left = left.AmongWays() + attempt->hypothesis.handicap -
@@ -195,27 +196,46 @@ Status CoarseToFine::FollowCoarse(double best, Attempt* attempt, FitResult* resu
   return Status::Ok();
 }
 
+std::vector<DeformationState> CoarseToFine::StartsOf(const Hypothesis& hypothesis) const {
+  if (hypothesis.start == HypothesisStart::kIntrinsic) return IntrinsicStarts(fit_, graphs_[0]);
+  return {StartOf(hypothesis, fit_, graphs_[0])};
+}
+
 Status CoarseToFine::TryHypotheses(std::vector<Attempt>* attempts, FitResult* result) const {
   const std::vector<Hypothesis> hypotheses = ListHypotheses(fit_);
   double unmatched = std::numeric_limits<double>::infinity();
+  double worse = unmatched;
   double best = unmatched;
   bool is_partial = true;
   for (std::size_t i = 0; i < hypotheses.size(); ++i) {
     const Hypothesis& hypothesis = hypotheses[i];
-    const bool is_needed =
-        unmatched >= hypothesis.needed_above || (is_partial && hypothesis.needed_if_partial);
+    const bool is_needed = unmatched >= hypothesis.needed_above ||
+                           (is_partial && hypothesis.needed_if_partial) ||
+                           worse >= hypothesis.needed_above_worse;
     if (!is_needed) continue;
-    Attempt attempt;
-    attempt.hypothesis = hypothesis;
-    attempt.progress = static_cast<double>(i + 1) / static_cast<double>(hypotheses.size());
-    if (Status status = FollowCoarse(best, &attempt, result); !status.ok()) return status;
-    if (attempt.is_whole) {
-      unmatched = std::min(unmatched, attempt.unmatched);
-      best = std::min(best, attempt.left);
-      is_partial = is_partial && attempt.is_partial;
-      attempts->push_back(std::move(attempt));
+    for (DeformationState& start : StartsOf(hypothesis)) {
+      Attempt attempt;
+      attempt.hypothesis = hypothesis;
+      attempt.state = std::move(start);
+      attempt.progress = static_cast<double>(i + 1) / static_cast<double>(hypotheses.size());
+      if (Status status = FollowCoarse(best, &attempt, result); !status.ok()) return status;
+      if (attempt.is_whole) {
+        unmatched = std::min(unmatched, attempt.unmatched);
+        worse = std::min(worse, attempt.worse);
+        best = std::min(best, attempt.left);
+        is_partial = is_partial && attempt.is_partial;
+        attempts->push_back(std::move(attempt));
+      }
+      if (EndedEarly(*result)) break;
     }
     if (EndedEarly(*result)) break;
+  }
+  if (attempts->empty()) {
+    // There was no intrinsic start, and no other way was chosen: the source stays where it is.
+    Attempt rest;
+    rest.hypothesis = hypotheses.front();
+    rest.state = DeformationState(graphs_[0].graph.num_nodes());
+    attempts->push_back(std::move(rest));
   }
   std::stable_sort(attempts->begin(), attempts->end(), [](const Attempt& a, const Attempt& b) {
     return a.left < b.left;

@@ -41,6 +41,8 @@ class CoarseToFine {
     // beyond what noise leaves.
     double left = 0.0;
     double unmatched = 0.0;
+    // The unmatched share of the other surface, with the area that is squeezed away.
+    double worse = 0.0;
     // Whether nothing of that surface is left, and whether much of the other one is.
     bool is_explained = false;
     bool is_partial = false;
@@ -58,6 +60,8 @@ class CoarseToFine {
                        const ResolutionPlan& plan,
                        DeformationState* state,
                        FitResult* result) const;
+  // Returns the states of the coarsest graph from which a hypothesis starts; there may be none.
+  std::vector<DeformationState> StartsOf(const Hypothesis& hypothesis) const;
   // Follows the target on all graphs but the finest one, and measures the result. An attempt that
   // cannot reach what the best one leaves to explain is given up.
   Status FollowCoarse(double best, Attempt* attempt, FitResult* result) const;

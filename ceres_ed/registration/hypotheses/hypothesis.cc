@@ -3,6 +3,7 @@
 #include <ceres_ed/graph/warp.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <sstream>
 
@@ -36,6 +37,7 @@ constexpr double kLittle = 0.03;
 constexpr Recipe kRecipes[] = {
     {"careful", HypothesisStart::kPlaced, Manner::kCareful, 0.0},
     {"bold", HypothesisStart::kPlaced, Manner::kBold, kNothing},
+    {"intrinsic", HypothesisStart::kIntrinsic, Manner::kBold, kLittle},
     {"given_careful", HypothesisStart::kGiven, Manner::kCareful, kLittle},
     {"given_bold", HypothesisStart::kGiven, Manner::kBold, kLittle},
     {"strict", HypothesisStart::kPlaced, Manner::kStrict, kLittle},
@@ -49,6 +51,10 @@ double MotionFromGiven(const UnitFit& fit) {
   return motion.translation.norm() + 0.5 * angle;
 }
 
+// A surface of which less than this is left has all its limbs in their places.
+constexpr double kWhole = 0.02;
+// The first stiffness of a source that is bent already lies this part of the way to the last one.
+constexpr double kBentShare = 0.8;
 // The angle of the strict manner, as a part of that of the careful one.
 constexpr double kStrictness = 0.9;
 // A motion below the first of these is none; above the second one it is far.
@@ -74,12 +80,21 @@ Hypothesis MakeHypothesis(const Recipe& recipe, const UnitFit& fit) {
     hypothesis.fine_angle_deg = hypothesis.coarse_angle_deg;
   }
   hypothesis.needed_above = recipe.needed_above;
-  if (recipe.start == HypothesisStart::kPlaced) {
+  if (recipe.start == HypothesisStart::kIntrinsic) {
+    hypothesis.needed_above_worse = kWhole;
+  } else if (recipe.start == HypothesisStart::kPlaced) {
     hypothesis.handicap = kFarHandicap * std::min(1.0, motion / (2.0 * kFarMotion));
   } else {
     hypothesis.needed_if_partial = motion > kFarMotion && recipe.manner == Manner::kCareful;
   }
   return hypothesis;
+}
+
+// Returns whether a hypothesis can start there, and differs from those that start elsewhere.
+bool IsStart(const UnitFit& fit, HypothesisStart start) {
+  if (start == HypothesisStart::kGiven) return MotionFromGiven(fit) > kLeastMotion;
+  if (start == HypothesisStart::kIntrinsic) return fit.landmarks.empty() && fit.fixed.empty();
+  return true;
 }
 
 std::vector<std::string> Split(const std::string& names) {
@@ -94,6 +109,10 @@ std::vector<std::string> Split(const std::string& names) {
 ResolutionPlan Hypothesis::Apply(ResolutionPlan plan, bool is_finest) const {
   plan.loss_width = loss_width;
   plan.max_angle_deg = is_finest ? fine_angle_deg : coarse_angle_deg;
+  if (start == HypothesisStart::kIntrinsic && !is_finest) {
+    plan.first_stiffness *= std::pow(plan.last_stiffness / plan.first_stiffness, kBentShare);
+    plan.steps = std::max(1, plan.steps - 1);
+  }
   return plan;
 }
 
@@ -125,9 +144,7 @@ std::vector<Hypothesis> ListHypotheses(const UnitFit& fit) {
   for (const Recipe& recipe : kRecipes) {
     const bool is_chosen =
         chosen.empty() || std::find(chosen.begin(), chosen.end(), recipe.name) != chosen.end();
-    const bool is_start =
-        recipe.start == HypothesisStart::kPlaced || MotionFromGiven(fit) > kLeastMotion;
-    if (!is_chosen || !is_start) continue;
+    if (!is_chosen || !IsStart(fit, recipe.start)) continue;
     hypotheses.push_back(MakeHypothesis(recipe, fit));
     if (is_one_way) break;
   }

@@ -7,6 +7,7 @@
 #include <ceres_ed/registration/nonrigid_loop.h>
 #include <ceres_ed/registration/unit_fit.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ enum class HypothesisStart {
   kPlaced,
   // Where the input has it, turned and moved back from its place (UnitFit::given_from_placed).
   kGiven,
+  // Where lengths along the surfaces take it (IntrinsicStarts()), bent already.
+  kIntrinsic,
 };
 
 // One way to follow the target. Closest points lead each way along a path of its own, and none is
@@ -36,6 +39,9 @@ struct Hypothesis {
   // other.
   double needed_above = 0.0;
   bool needed_if_partial = false;
+  // It is also tried where this share of the other surface, with the area that is squeezed away, is
+  // left: a limb that has not come to its place leaves a hole there.
+  double needed_above_worse = std::numeric_limits<double>::infinity();
   // What the hypothesis must explain beyond others to be chosen: the given pose is believed where
   // the surfaces cannot tell it from another one.
   double handicap = 0.0;
@@ -52,7 +58,8 @@ std::vector<std::string> HypothesisNames();
 std::string CheckHypothesisNames(const std::string& names);
 
 // Returns the hypotheses of `fit` in the order in which they are tried; there is at least one.
-// FitOptions::hypotheses chooses among them. Without a target, or with a loss that has no width,
+// FitOptions::hypotheses chooses among them. Landmarks and fixed points say more than the intrinsic
+// start, which is not tried beside them. Without a target, or with a loss that has no width,
 // there is only one way to follow it. The given pose is a start of its own only where the rigid
 // stage has moved the source away from it. Where this is far, a part of a smooth surface may fit in
 // several places.
