@@ -37,16 +37,23 @@ constexpr Ingredient kIngredients[] = {
      [](FitOptions* options) { options->schedule.levels = 1; }},
     {"careful_ways",
      "few nodes follow the bold ways alone",
-     [](FitOptions* options) { options->hypotheses = "bold,given_bold"; }},
+     [](FitOptions* options) { options->hypotheses = "bold,intrinsic,given_bold"; }},
     {"bold_ways",
      "few nodes follow the careful ways alone",
      [](FitOptions* options) { options->hypotheses = "careful,given_careful,strict"; }},
     {"given_pose",
      "every way starts from the rigid placement",
-     [](FitOptions* options) { options->hypotheses = "careful,bold,strict"; }},
+     [](FitOptions* options) { options->hypotheses = "careful,bold,intrinsic,strict"; }},
     {"strict_way",
      "no way has stricter normals than the careful one",
-     [](FitOptions* options) { options->hypotheses = "careful,bold,given_careful,given_bold"; }},
+     [](FitOptions* options) {
+       options->hypotheses = "careful,bold,intrinsic,given_careful,given_bold";
+     }},
+    {"intrinsic_start",
+     "no way starts from lengths along the surfaces",
+     [](FitOptions* options) {
+       options->hypotheses = "careful,bold,given_careful,given_bold,strict";
+     }},
     {"robust_loss",
      "squared distances while nodes move",
      [](FitOptions* options) { options->loss = LossType::kSquared; }},
