@@ -88,12 +88,16 @@ class CloudBuilder {
       loaded_.cloud.points.push_back(point);
     }
     const std::size_t dropped = vertices_->count - loaded_.cloud.size();
-    if (2 * dropped > vertices_->count) {
-      return Error(std::to_string(dropped) + " of " + std::to_string(vertices_->count) +
-                   " vertices have coordinates that are not finite, expected at most half");
+    // Sensors write a vertex for each pixel, of which most may be without depth.
+    if (dropped == vertices_->count) {
+      return Error("none of the " + std::to_string(vertices_->count) +
+                   " vertices has finite coordinates");
     }
-    if (dropped > 0)
-      Warn(Counted(dropped, "point") + " with coordinates that are not finite dropped");
+    if (dropped > 0) {
+      const std::string most =
+          2 * dropped > vertices_->count ? " (of " + std::to_string(vertices_->count) + ")" : "";
+      Warn(Counted(dropped, "point") + most + " with coordinates that are not finite dropped");
+    }
     return Status::Ok();
   }
 

@@ -42,8 +42,7 @@ struct LoadedCloud {
 //
 // Left out with a warning: points that are not finite and their triangles, polygons of fewer than
 // three corners, and triangles that use a vertex twice. Errors are those of ReadPly(), and: there
-// are no vertices, there is no x y z, a face index is out of range, or more than half of the points
-// are not finite.
+// are no vertices, there is no x y z, a face index is out of range, or no point is finite.
 StatusOr<LoadedCloud> LoadCloud(const std::string& path);
 
 // Does the same for a document in memory. `path` names it in messages.
