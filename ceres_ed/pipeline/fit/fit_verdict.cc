@@ -15,7 +15,7 @@ constexpr VerdictBounds kUnseen = {0.65, 0.9};
 constexpr VerdictBounds kFolded = {0.001, 0.02};
 // Logarithms of ratios of lengths. Bodies with limbs that bend stretch their edges by up to a third
 // at the joints; a surface that is drawn onto another body stretches nearly everywhere.
-constexpr VerdictBounds kEdgeStretch = {0.5, 0.9};
+constexpr VerdictBounds kEdgeStretch = {0.45, 0.9};
 constexpr VerdictBounds kNodeStretch = {0.39, 0.75};
 // Fractions of the diagonal.
 constexpr VerdictBounds kDisagreement = {0.035, 0.1};

@@ -103,23 +103,30 @@ double SpacingOf(const Surface& surface) {
   return samples.empty() ? 0.0 : 2.0 * sum / static_cast<double>(samples.size());
 }
 
+// The samples of the surface that is compared with a reference.
+struct ComparedSurface {
+  const std::vector<int>* samples = nullptr;
+  const std::vector<Eigen::Vector3d>* points = nullptr;
+  const std::vector<Eigen::Vector3d>* normals = nullptr;
+  const std::vector<double>* areas = nullptr;
+};
+
 // Compares the samples of a surface with a reference; returns the sum of the squares of the matched
 // distances across the surface, weighted by area, and the parts in `cover`.
-double CompareAll(const std::vector<int>& samples,
-                  const std::vector<Eigen::Vector3d>& points,
-                  const std::vector<Eigen::Vector3d>& normals,
-                  const std::vector<double>& areas,
+double CompareAll(const ComparedSurface& compared,
                   const Reference& reference,
                   double within,
                   int num_threads,
                   std::vector<Comparison>* comparisons,
                   CoverEvidence* cover) {
+  const std::vector<int>& samples = *compared.samples;
   const int count = static_cast<int>(samples.size());
   comparisons->assign(samples.size(), Comparison());
   ParallelFor(num_threads, count, [&](int begin, int end) {
     for (int i = begin; i < end; ++i) {
       const int point = samples[i];
-      (*comparisons)[i] = Compare(points[point], normals[point], reference, within);
+      (*comparisons)[i] =
+          Compare((*compared.points)[point], (*compared.normals)[point], reference, within);
     }
   });
   double sums[3] = {0.0, 0.0, 0.0};
@@ -127,7 +134,7 @@ double CompareAll(const std::vector<int>& samples,
   double squares = 0.0;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const Comparison& comparison = (*comparisons)[i];
-    const double area = areas[samples[i]];
+    const double area = (*compared.areas)[samples[i]];
     sums[static_cast<int>(comparison.cover)] += area;
     total += area;
     if (comparison.cover == Cover::kMatched) {
@@ -265,15 +272,13 @@ void MeasureEvidence(const FittedSurfaces& fit, FitEvidence* evidence) {
                                spacing};
   const std::vector<int> source_samples = SamplePoints(source, kSamples);
   std::vector<Comparison> of_source;
-  const double source_squares = CompareAll(source_samples,
-                                           *fit.points,
-                                           *fit.normals,
-                                           source.relative_areas(),
-                                           on_target,
-                                           within,
-                                           fit.num_threads,
-                                           &of_source,
-                                           &evidence->source);
+  const double source_squares =
+      CompareAll({&source_samples, fit.points, fit.normals, &source.relative_areas()},
+                 on_target,
+                 within,
+                 fit.num_threads,
+                 &of_source,
+                 &evidence->source);
   // The target on the fitted source, whose connections are those of the source.
   PointCloud fitted;
   fitted.points = *fit.points;
@@ -282,15 +287,13 @@ void MeasureEvidence(const FittedSurfaces& fit, FitEvidence* evidence) {
   const Reference on_source = {&index, fit.normals, &fitted, IsClosed(source), oriented, spacing};
   const std::vector<int> target_samples = SamplePoints(target, kSamples);
   std::vector<Comparison> of_target;
-  const double target_squares = CompareAll(target_samples,
-                                           target.cloud().points,
-                                           target.cloud().normals,
-                                           target.relative_areas(),
-                                           on_source,
-                                           within,
-                                           fit.num_threads,
-                                           &of_target,
-                                           &evidence->target);
+  const double target_squares = CompareAll(
+      {&target_samples, &target.cloud().points, &target.cloud().normals, &target.relative_areas()},
+      on_source,
+      within,
+      fit.num_threads,
+      &of_target,
+      &evidence->target);
   const double matched = evidence->source.matched + evidence->target.matched;
   if (matched > 0.0) evidence->residual = std::sqrt((source_squares + target_squares) / matched);
   evidence->edge_stretch = EdgeStretch(fit);
