@@ -2,6 +2,7 @@
 
 #include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/geometry/surface_distance.h>
+#include <ceres_ed/geometry/triangle_area.h>
 #include <ceres_ed/util/parallel.h>
 
 #include <algorithm>
@@ -18,6 +19,12 @@ namespace {
 
 // A weight below this is a rounding error of a tie.
 constexpr double kMinWeight = 1e-9;
+// A node is on a piece of another cloud if it is this near, in node spacings. The piece is a part
+// of the surface if it has a node for at most this many squared spacings.
+constexpr double kOnSurface = 0.35;
+constexpr double kAreaPerNode = 2.0;
+// Within a body a point follows nodes that are at most this many edges away from the nearest one.
+constexpr int kBodyRings = 3;
 
 // The nodes and weights of one point, before they are added to a Skinning.
 struct BoundNodes {
@@ -82,28 +89,109 @@ Skinning BindAlongSurface(const std::vector<Eigen::Vector3d>& points,
   return skinning;
 }
 
-// Finds for each node the nearest point that has a triangle (its representative), and the distance
-// to it.
-void EnterSurface(const PointCloud& cloud,
-                  const SurfaceTopology& topology,
-                  const DeformationGraph& graph,
-                  std::vector<int>* entry_points,
-                  std::vector<double>* offsets) {
+// Where the nodes of a surface enter a cloud: for each of them the nearest point that has a
+// triangle (its representative), and the distance to it.
+struct SurfaceEntries {
+  std::vector<int> points;
+  std::vector<double> offsets;
+};
+
+// Returns the entries of the surface's nodes into the pieces of `cloud` for which `is_left_out` is
+// 0. There must be such a piece that has triangles.
+SurfaceEntries EnterSurface(const PointCloud& cloud,
+                            const SurfaceTopology& topology,
+                            const DeformationGraph& graph,
+                            const std::vector<char>& is_left_out) {
   std::vector<int> on_surface;
   std::vector<Eigen::Vector3d> positions;
   for (int p = 0; p < topology.num_points(); ++p) {
     if (topology.is_isolated[p] || topology.representative[p] != p) continue;
+    if (is_left_out[topology.component[p]] != 0) continue;
     on_surface.push_back(p);
     positions.push_back(cloud.points[p]);
   }
   const KdTree tree(positions);
-  for (const Eigen::Vector3d& node : graph.positions()) {
-    const Neighbor nearest = tree.Nearest(node);
-    CHECK(nearest.found()) << "node at " << node.transpose();
-    entry_points->push_back(on_surface[nearest.index]);
-    offsets->push_back(std::sqrt(nearest.squared_distance));
+  SurfaceEntries entries;
+  for (int j = 0; j < graph.num_surface_nodes(); ++j) {
+    const Neighbor nearest = tree.Nearest(graph.position(j));
+    CHECK(nearest.found()) << "node at " << graph.position(j).transpose();
+    entries.points.push_back(on_surface[nearest.index]);
+    entries.offsets.push_back(std::sqrt(nearest.squared_distance));
   }
+  return entries;
 }
+
+// Returns for each piece of `cloud` whether it is not the surface of the body that `graph` fills,
+// but lies inside it: it has less than one node for kAreaPerNode squared spacings.
+std::vector<char> FindInnerPieces(const PointCloud& cloud,
+                                  const SurfaceTopology& topology,
+                                  const DeformationGraph& graph) {
+  std::vector<char> is_inner(topology.num_components(), 0);
+  if (graph.num_inner_nodes() == 0) return is_inner;
+  const double spacing = SurfaceNodeSpacing(graph);
+  const SurfaceEntries entries = EnterSurface(cloud, topology, graph, is_inner);
+  std::vector<int> nodes(is_inner.size(), 0);
+  for (std::size_t j = 0; j < entries.points.size(); ++j) {
+    if (entries.offsets[j] <= kOnSurface * spacing) ++nodes[topology.component[entries.points[j]]];
+  }
+  std::vector<double> areas(is_inner.size(), 0.0);
+  for (const auto& [a, b, c] : cloud.triangles) {
+    areas[topology.component[a]] +=
+        AreaVector(cloud.points[a], cloud.points[b], cloud.points[c]).norm();
+  }
+  for (std::size_t piece = 0; piece < is_inner.size(); ++piece) {
+    is_inner[piece] =
+        nodes[piece] == 0 || nodes[piece] * kAreaPerNode * spacing * spacing < areas[piece];
+  }
+  return is_inner;
+}
+
+// Finds the nodes of a body that carry a point in it.
+class BodyBinder {
+ public:
+  BodyBinder(const DeformationGraph& graph, int neighbors)
+      : neighbors_(neighbors),
+        positions_(graph.positions().begin(), graph.positions().end()),
+        tree_(positions_),
+        near_(graph.num_nodes()) {
+    std::vector<std::vector<int>> linked(graph.num_nodes());
+    for (const GraphEdge& edge : graph.edges()) linked[edge.from].push_back(edge.to);
+    for (int j = 0; j < graph.num_nodes(); ++j) {
+      near_[j] = {j};
+      for (int ring = 0; ring < kBodyRings; ++ring) {
+        const std::vector<int> inner = near_[j];
+        for (const int k : inner) {
+          near_[j].insert(near_[j].end(), linked[k].begin(), linked[k].end());
+        }
+        std::sort(near_[j].begin(), near_[j].end());
+        near_[j].erase(std::unique(near_[j].begin(), near_[j].end()), near_[j].end());
+      }
+    }
+  }
+
+  BoundNodes Bind(const Eigen::Vector3d& point) const {
+    const std::vector<int>& near = near_[tree_.Nearest(point).index];
+    std::vector<std::pair<double, int>> nodes;
+    nodes.reserve(near.size());
+    for (const int j : near) nodes.emplace_back((positions_[j] - point).norm(), j);
+    const std::size_t used = std::min<std::size_t>(nodes.size(), neighbors_ + 1);
+    std::partial_sort(nodes.begin(), nodes.begin() + static_cast<int>(used), nodes.end());
+    std::array<double, kMaxBoundNodes + 1> distances;
+    for (std::size_t i = 0; i < used; ++i) distances[i] = nodes[i].first;
+    BoundNodes bound;
+    bound.size =
+        ComputeWeights(distances.data(), static_cast<int>(used), neighbors_, bound.weights.data());
+    for (int i = 0; i < bound.size; ++i) bound.nodes[i] = nodes[i].second;
+    return bound;
+  }
+
+ private:
+  const int neighbors_;
+  const std::vector<Eigen::Vector3d> positions_;
+  const KdTree tree_;
+  // The nodes within kBodyRings edges of each node, in ascending order.
+  std::vector<std::vector<int>> near_;
+};
 
 }  // namespace
 
@@ -151,6 +239,55 @@ Skinning BindPoints(const PointCloud& cloud,
       cloud.points, topology, node_positions, node_points, {}, options.neighbors, should_stop);
 }
 
+double SurfaceNodeSpacing(const DeformationGraph& graph) {
+  const std::vector<Eigen::Vector3d> positions(
+      graph.positions().begin(), graph.positions().begin() + graph.num_surface_nodes());
+  if (positions.size() < 2) return 0.0;
+  const KdTree tree(positions);
+  double sum = 0.0;
+  for (const Eigen::Vector3d& position : positions) {
+    Neighbor nearest[2];
+    tree.KNearest(position, 2, nearest);
+    sum += std::sqrt(nearest[1].squared_distance);
+  }
+  return sum / static_cast<double>(positions.size());
+}
+
+Skinning BindInBody(const std::vector<Eigen::Vector3d>& points,
+                    const DeformationGraph& graph,
+                    int num_threads) {
+  const BodyBinder binder(graph, kMaxBoundNodes);
+  std::vector<BoundNodes> bound(points.size());
+  ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) bound[p] = binder.Bind(points[p]);
+  });
+  Skinning skinning(kMaxBoundNodes);
+  for (const BoundNodes& b : bound) skinning.Add(b.nodes.data(), b.weights.data(), b.size);
+  return skinning;
+}
+
+void BindPiecesInBody(const PointCloud& cloud,
+                      const SurfaceTopology& topology,
+                      const std::vector<char>& pieces,
+                      const DeformationGraph& graph,
+                      int num_threads,
+                      Skinning* skinning) {
+  std::vector<Eigen::Vector3d> positions;
+  const auto is_chosen = [&](int point) { return pieces[topology.component[point]] != 0; };
+  for (int p = 0; p < topology.num_points(); ++p) {
+    if (is_chosen(p)) positions.push_back(cloud.points[p]);
+  }
+  if (positions.empty()) return;
+  const Skinning inner = BindInBody(positions, graph, num_threads);
+  Skinning merged(kMaxBoundNodes);
+  std::size_t next = 0;
+  for (int p = 0; p < topology.num_points(); ++p) {
+    const Binding binding = is_chosen(p) ? inner[next++] : (*skinning)[p];
+    merged.Add(binding.nodes, binding.weights, binding.size);
+  }
+  *skinning = std::move(merged);
+}
+
 StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
                                     const DeformationGraph& graph,
                                     const BindingOptions& options) {
@@ -167,16 +304,27 @@ StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
   std::string error;
   if (!options.IsValid(&error)) return Status::Error("bad binding: " + error);
   if (graph.num_nodes() == 0) return Status::Error("cannot bind points to a graph without nodes");
-  const std::vector<Eigen::Vector3d> node_positions(graph.positions().begin(),
-                                                    graph.positions().end());
+  const bool has_body = graph.num_inner_nodes() > 0;
+  const std::vector<Eigen::Vector3d> node_positions(
+      graph.positions().begin(), graph.positions().begin() + graph.num_surface_nodes());
   if (options.distance == DistanceRule::kEuclidean || !topology.HasSurface()) {
-    return BindInSpace(cloud.points, node_positions, options);
+    return has_body ? BindInBody(cloud.points, graph, options.num_threads)
+                    : BindInSpace(cloud.points, node_positions, options);
   }
-  std::vector<int> entry_points;
-  std::vector<double> offsets;
-  EnterSurface(cloud, topology, graph, &entry_points, &offsets);
-  return BindAlongSurface(
-      cloud.points, topology, node_positions, entry_points, offsets, options.neighbors, {});
+  const std::vector<char> is_inner = FindInnerPieces(cloud, topology, graph);
+  if (std::all_of(is_inner.begin(), is_inner.end(), [](char inner) { return inner != 0; })) {
+    return BindInBody(cloud.points, graph, options.num_threads);
+  }
+  const SurfaceEntries entries = EnterSurface(cloud, topology, graph, is_inner);
+  Skinning skinning = BindAlongSurface(cloud.points,
+                                       topology,
+                                       node_positions,
+                                       entries.points,
+                                       entries.offsets,
+                                       options.neighbors,
+                                       {});
+  BindPiecesInBody(cloud, topology, is_inner, graph, options.num_threads, &skinning);
+  return skinning;
 }
 
 }  // namespace ceres_ed

@@ -44,11 +44,37 @@ Skinning BindPoints(const PointCloud& cloud,
                     const BindingOptions& options,
                     const std::function<bool()>& should_stop = {});
 
+// Returns the binding of points inside a body to the kMaxBoundNodes nearest nodes of its graph,
+// those on its surface and those inside, by the distance in space. (In a volume a point has more
+// neighbours around it than on a surface.) Only nodes that are at most three edges away from
+// the nearest one count, so that a finger does not follow the finger beside it. Fails a CHECK for a
+// graph without nodes.
+Skinning BindInBody(const std::vector<Eigen::Vector3d>& points,
+                    const DeformationGraph& graph,
+                    int num_threads);
+
+// Replaces the binding of all points in the pieces (SurfaceTopology::component) of `cloud` for
+// which `pieces` is not 0 by that of BindInBody().
+void BindPiecesInBody(const PointCloud& cloud,
+                      const SurfaceTopology& topology,
+                      const std::vector<char>& pieces,
+                      const DeformationGraph& graph,
+                      int num_threads,
+                      Skinning* skinning);
+
+// Returns the mean distance of a node of the surface from the nearest other one, in the unit of the
+// positions; 0 if there is only one.
+double SurfaceNodeSpacing(const DeformationGraph& graph);
+
 // Returns the binding of any other cloud near the graph's rest shape. It need not share points with
 // the cloud from which the graph was built. If distances are measured along the surface, each node
 // starts at the nearest vertex of `cloud` that is in a triangle, and its distance to that vertex is
 // added. For the cloud from which the graph was built, the result has the same bits as that of
 // BindPoints(). Returns an error for a graph without nodes and for bad options.
+//
+// If the graph has nodes inside a body, pieces of the cloud that are not the surface of the body
+// are bound by BindInBody(): points without triangles, and meshes on which there is less than one
+// node for twice the area that a node has on the surface.
 StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
                                     const DeformationGraph& graph,
                                     const BindingOptions& options);

@@ -22,10 +22,14 @@ struct GraphEdge {
 };
 
 // The nodes g_j and the directed edges between them. Node indices are stable: nodes are only ever
-// appended, and adding one does not copy the others.
+// appended, and adding one does not copy the others. A graph of a body has nodes on its surface,
+// and behind them nodes inside; points of the surface are bound to the first ones only.
 class DeformationGraph {
  public:
   int num_nodes() const { return static_cast<int>(positions_.size()); }
+  // The number of nodes that are not inside a body; all others follow them.
+  int num_surface_nodes() const { return num_nodes() - num_inner_nodes_; }
+  int num_inner_nodes() const { return num_inner_nodes_; }
   int num_edges() const { return static_cast<int>(edges_.size()); }
 
   // The rest positions g_j, in map units.
@@ -37,9 +41,14 @@ class DeformationGraph {
 
   // Adds a node at `position` (map units) and returns its index.
   int AddNode(const Eigen::Vector3d& position) {
-    positions_.push_back(position);
-    incident_edges_.emplace_back();
-    return num_nodes() - 1;
+    CHECK_EQ(num_inner_nodes_, 0) << "nodes of the surface come before inner ones";
+    return Append(position);
+  }
+
+  // Adds a node inside the body and returns its index. No other nodes may be added after it.
+  int AddInnerNode(const Eigen::Vector3d& position) {
+    ++num_inner_nodes_;
+    return Append(position);
   }
 
   // Adds an edge and returns its index. Fails a CHECK unless both nodes exist and differ.
@@ -64,6 +73,13 @@ class DeformationGraph {
   }
 
  private:
+  int Append(const Eigen::Vector3d& position) {
+    positions_.push_back(position);
+    incident_edges_.emplace_back();
+    return num_nodes() - 1;
+  }
+
+  int num_inner_nodes_ = 0;
   std::deque<Eigen::Vector3d> positions_;
   std::deque<GraphEdge> edges_;
   std::deque<std::vector<int>> incident_edges_;

@@ -3,6 +3,7 @@
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/geometry/sampling.h>
 #include <ceres_ed/graph/edges.h>
+#include <ceres_ed/graph/volume.h>
 
 #include <algorithm>
 #include <cmath>
@@ -171,6 +172,22 @@ void WarnAboutNodes(const SamplingPlan& plan, BuiltGraph* built) {
   }
 }
 
+// Returns the distance between nodes, also if only their number was given.
+double SpacingOf(const BuiltGraph& built) {
+  return built.node_spacing > 0.0 ? built.node_spacing : SurfaceNodeSpacing(built.graph);
+}
+
+// Binds the pieces of the surface that have no node to all nodes around them.
+void BindPiecesWithoutNodes(const PointCloud& cloud,
+                            const SurfaceTopology& topology,
+                            BuiltGraph* built) {
+  if (built->graph.num_inner_nodes() == 0) return;
+  std::vector<char> has_no_node(topology.num_components(), 1);
+  for (const int point : built->node_points) has_no_node[topology.component[point]] = 0;
+  BindPiecesInBody(
+      cloud, topology, has_no_node, built->graph, built->binding.num_threads, &built->skinning);
+}
+
 }  // namespace
 
 StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
@@ -212,8 +229,16 @@ StatusOr<BuiltGraph> BuildGraph(const PointCloud& cloud,
   // 4. Join pieces that are not connected.
   const std::vector<int> pieces = ConnectedPieces(built.graph);
   built.num_pieces = 1 + *std::max_element(pieces.begin(), pieces.end());
+  if (built.num_pieces > 1 && options.join_pieces)
+    JoinPieces(&built.graph, options.edges_per_joint);
+  built.num_surface_edges = built.graph.num_edges();
+
+  // 5. Fill the body. Small pieces without nodes follow what is around them.
+  if (options.volume && plan.distance == DistanceRule::kSurface) {
+    AddVolume(cloud, built.node_points, SpacingOf(built), options.volume_weight, &built.graph);
+    BindPiecesWithoutNodes(cloud, topology, &built);
+  }
   if (built.num_pieces == 1) return built;
-  if (options.join_pieces) JoinPieces(&built.graph, options.edges_per_joint);
   built.warnings.push_back(Sentence("the graph is in ",
                                     built.num_pieces,
                                     " pieces",

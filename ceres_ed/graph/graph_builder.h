@@ -20,13 +20,15 @@ struct BuiltGraph {
   DeformationGraph graph;
   // The binding of every point of the cloud.
   Skinning skinning;
-  // For each node, the index of the point at which it lies.
+  // For each node on the surface, the index of the point at which it lies.
   std::vector<int> node_points;
   // The options with which `skinning` was computed, with the distance that was really used.
   // BindCloudToGraph() needs them to bind another cloud in the same way.
   BindingOptions binding;
   // The spacing that was used, in the unit of the points; 0 if only the number of nodes was given.
   double node_spacing = 0.0;
+  // The number of edges along the surface; those through the body are behind them.
+  int num_surface_edges = 0;
   // The number of connected pieces before they were joined; 1 for a graph that was connected.
   int num_pieces = 0;
   // Warnings for the user, one sentence each.

@@ -52,6 +52,8 @@ const OptionTable<GraphOptions>& GraphOptions::Rows() {
       Row(&O::edges_per_joint, "edges_per_joint", "The edges at each joint of two pieces.")
           .In(AtLeast(1)),
       Row(&O::num_threads, "threads", "The result does not depend on it.").In(AtLeast(1)),
+      NotData(&O::volume),
+      NotData(&O::volume_weight),
       NotData(&O::should_stop),
   });
   return rows;

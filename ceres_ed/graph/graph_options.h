@@ -86,6 +86,11 @@ struct GraphOptions {
   // Components of a mesh with fewer positions than this get no node. They follow the nodes that are
   // nearest in space. >= 1.
   int min_component_points = 10;
+  // Whether the graph also has nodes inside the surface, which must be closed, and edges through
+  // the body (AddVolume()). It needs distances along the surface.
+  bool volume = false;
+  // The weight of the edges of inner nodes, >= 0; those along the surface have the mean 1.
+  double volume_weight = 0.03;
   // Called from time to time; if it returns true, BuildGraph() ends with an error.
   std::function<bool()> should_stop;
   // If true, the connected pieces of the graph are joined by edges, so that they move together.

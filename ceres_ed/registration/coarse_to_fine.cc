@@ -1,5 +1,6 @@
 #include "ceres_ed/registration/coarse_to_fine.h"
 
+#include <ceres_ed/graph/binding.h>
 #include <ceres_ed/graph/edges.h>
 #include <ceres_ed/registration/evidence/way_agreement.h>
 #include <ceres_ed/registration/fit_problem.h>
@@ -92,6 +93,9 @@ void CarryPiecesWithoutLandmarks(const UnitFit& fit, BuiltGraph* built) {
   }
   std::vector<int> piece;
   for (const int point : built->node_points) piece.push_back(topology.component[point]);
+  // Nodes inside belong to no piece.
+  piece.resize(built->graph.num_nodes(), static_cast<int>(is_carried.size()));
+  is_carried.push_back(0);
   CarryPieces(
       piece, is_carried, kCarryingEdges, kCarryingReach * built->node_spacing, &built->graph);
 }
@@ -125,15 +129,25 @@ Status CoarseToFine::BuildGraphs(int resolutions, FitResult* result) {
 DeformationState CoarseToFine::CarryOver(const BuiltGraph& graph,
                                          const DeformationState& state,
                                          int resolution) const {
-  const std::vector<int>& node_points = graphs_[resolution].node_points;
+  const BuiltGraph& next = graphs_[resolution];
   const std::vector<Eigen::Vector3d>& points = fit_.source->cloud().points;
-  DeformationState carried(static_cast<int>(node_points.size()));
-  for (int j = 0; j < carried.num_nodes(); ++j) {
-    const int point = node_points[j];
-    const Binding binding = graph.skinning[point];
-    MutableNodeAffine(carried.node(j)) = WarpGradient(state, binding);
-    MutableNodeTranslation(carried.node(j)) =
-        WarpPoint(graph.graph, state, binding, points[point]) - points[point];
+  DeformationState carried(next.graph.num_nodes());
+  const auto carry = [&](int node, const Binding& binding, const Eigen::Vector3d& point) {
+    MutableNodeAffine(carried.node(node)) = WarpGradient(state, binding);
+    MutableNodeTranslation(carried.node(node)) =
+        WarpPoint(graph.graph, state, binding, point) - point;
+  };
+  const int num_surface_nodes = next.graph.num_surface_nodes();
+  for (int j = 0; j < num_surface_nodes; ++j) {
+    carry(j, graph.skinning[next.node_points[j]], points[next.node_points[j]]);
+  }
+  std::vector<Eigen::Vector3d> inner;
+  for (int j = num_surface_nodes; j < carried.num_nodes(); ++j) {
+    inner.push_back(next.graph.position(j));
+  }
+  const Skinning skinning = BindInBody(inner, graph.graph, graph.binding.num_threads);
+  for (std::size_t i = 0; i < inner.size(); ++i) {
+    carry(num_surface_nodes + static_cast<int>(i), skinning[i], inner[i]);
   }
   return carried;
 }
@@ -143,7 +157,7 @@ Status CoarseToFine::RunResolution(int resolution,
                                    DeformationState* state,
                                    FitResult* result) const {
   const BuiltGraph& graph = graphs_[resolution];
-  FitProblem problem(graph, fit_.source->cloud());
+  FitProblem problem(graph, fit_.source->cloud(), plan.is_last);
   Status status = problem.AddEnergies(*fit_.options, *fit_.registry, fit_.landmarks, fit_.fixed);
   if (!status.ok()) return status;
   RunNonrigidLoop(fit_, graph, plan, &problem, state, result);

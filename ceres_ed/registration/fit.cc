@@ -6,6 +6,7 @@
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/graph/binding.h>
+#include <ceres_ed/graph/volume.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
 #include <ceres_ed/registration/evidence/measure_evidence.h>
@@ -56,8 +57,10 @@ Warp WarpInSourceFrame(const BuiltGraph& graph,
   warp.target_from_source = target_from_source;
   warp.binding = graph.binding;
   const Eigen::Matrix3d R = unit_from_source.rotation.toRotationMatrix();
-  for (int j = 0; j < graph.graph.num_nodes(); ++j) {
-    warp.graph.AddNode(source_points[graph.node_points[j]]);
+  for (const int point : graph.node_points) warp.graph.AddNode(source_points[point]);
+  const Similarity source_from_unit = unit_from_source.Inverse();
+  for (int j = graph.graph.num_surface_nodes(); j < graph.graph.num_nodes(); ++j) {
+    warp.graph.AddInnerNode(source_from_unit * graph.graph.position(j));
   }
   for (const GraphEdge& edge : graph.graph.edges()) warp.graph.AddEdge(edge);
   warp.state.Resize(graph.graph.num_nodes());
@@ -152,6 +155,8 @@ class Fitter {
   std::unique_ptr<const Surface> source_;
   std::unique_ptr<const Surface> target_;
   double noise_ = 0.0;
+  // Whether faces of the result are known to be folded, or not known not to be.
+  bool has_folds_ = true;
   FitResult result_;
 };
 
@@ -205,6 +210,11 @@ FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) con
   FitOptions options = options_;
   options.graph.node_spacing *= unit_from_target_.scale * result_.rigid.scale;
   options.graph.num_threads = options_.num_threads;
+  options.graph.volume =
+      options_.volume == VolumeRule::kOn ||
+      (options_.volume == VolumeRule::kAuto &&
+       EnclosesBody(source.cloud(), source.topology()));
+  options.graph.volume_weight = options_.weights.volume;
   options.matching.max_distance *= unit_from_target_.scale;
   options.matching.num_threads = options_.num_threads;
   if (target != nullptr) {
@@ -298,7 +308,8 @@ void Fitter::Unfold(const UnitFit& fit, PointCloud* fitted) {
     result_.evidence.folded =
         static_cast<double>(unfold.after) / static_cast<double>(mesh.triangles.size());
   }
-  if (unfold.after > 0) {
+  has_folds_ = unfold.after > 0;
+  if (has_folds_) {
     result_.warnings.push_back(std::to_string(unfold.after) + " of " +
                                std::to_string(mesh.triangles.size()) +
                                " faces stay folded over or squeezed flat");
@@ -336,7 +347,8 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
         std::max(result_.max_fixed_error,
                  (result_.points[point] - result_.rigid * input_.source.points[point]).norm());
   }
-  WarnAboutReflections(state);
+  // A node alone does not fold a surface whose faces say otherwise.
+  if (!input_.source.HasTriangles() || has_folds_) WarnAboutReflections(state);
   result_.matches.rms_plane /= unit_from_target_.scale;
   result_.matches.rms_point /= unit_from_target_.scale;
   result_.matches.robust_distance /= unit_from_target_.scale;

@@ -119,6 +119,10 @@ const OptionTable<FitWeights>& FitWeights::Rows() {
       Row(&O::regularization, "w_reg", "The weight of E_reg, which makes neighbours agree.")
           .In(AtLeast(0))
           .Main(),
+      Row(&O::volume,
+          "w_volume",
+          "The weight of edges to nodes inside SOURCE, relative to those along its surface.")
+          .In(AtLeast(0)),
       Row(&O::data, "w_data", "The weight of the distance to TARGET.").In(AtLeast(0)).Main(),
       Row(&O::landmark, "w_landmark", "The weight of the landmarks.").In(AtLeast(0)),
       Row(&O::fixed, "w_fixed", "The weight of the points that must not move.").In(AtLeast(0)),
@@ -165,6 +169,8 @@ const OptionTable<FitOptions>& FitOptions::Rows() {
       Nested(
           &O::graph, GraphOptions::Rows(), "graph_", {"node_spacing", "target_nodes", "neighbors"})
           .Internal("graph_threads"),
+      Row(&O::volume, "volume", "Whether SOURCE is a body with nodes inside; auto: if it is closed.")
+          .Main(),
       Nested(&O::weights, FitWeights::Rows()),
       Nested(&O::schedule, FitSchedule::Rows()),
       Row(&O::loss, "loss", "The robust loss of the distance to TARGET.").Main(),

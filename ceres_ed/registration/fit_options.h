@@ -7,6 +7,7 @@
 #include <ceres_ed/solver/solver_types.h>
 #include <ceres_ed/util/named_values.h>
 
+#include <array>
 #include <functional>
 #include <limits>
 #include <string>
@@ -104,6 +105,19 @@ struct FinishOptions {
   static const OptionTable<FinishOptions>& Rows();
 };
 
+// Whether the graph fills the body within the source.
+enum class VolumeRule {
+  // If the source is a closed mesh.
+  kAuto,
+  // As far as the source encloses a body; holes are closed by a vote (InsideGrid).
+  kOn,
+  kOff,
+};
+
+constexpr std::array<NamedValue<VolumeRule>, 3> NamesOf(VolumeRule) {
+  return {{{"auto", VolumeRule::kAuto}, {"on", VolumeRule::kOn}, {"off", VolumeRule::kOff}}};
+}
+
 // The weights of the objective (Eq. 3), all >= 0 and without unit. Each energy is a mean over its
 // residuals, so that a weight has the same meaning at any scale and at any density of points and
 // nodes: distances are in hundredths of the source's diagonal, and E_reg is relative to the node
@@ -111,6 +125,8 @@ struct FinishOptions {
 struct FitWeights {
   double rotation = 1.0;
   double regularization = 1.0;
+  // The weight of the edges to inner nodes in E_reg, relative to those along the surface.
+  double volume = 0.03;
   double data = 1.0;
   double landmark = 10.0;
   double fixed = 1e4;
@@ -178,6 +194,8 @@ struct FitOptions {
   StrategyOptions strategy;
   // The options of the graph. node_spacing is in the unit of the source; 0 means automatic.
   GraphOptions graph;
+  // Whether the graphs have nodes inside the source, too; default automatic.
+  VolumeRule volume = VolumeRule::kAuto;
   // The weights of the energies, and their change during the fit.
   FitWeights weights;
   FitSchedule schedule;

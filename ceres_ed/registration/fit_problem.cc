@@ -1,5 +1,6 @@
 #include "ceres_ed/registration/fit_problem.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace ceres_ed {
@@ -10,13 +11,27 @@ constexpr double kPerSquaredLength = 1e4;
 // Point-to-point uses every kThinning-th correspondence.
 constexpr int kThinning = 4;
 
+// On the last graph, the edges through a body keep its nodes from shearing. E_rot then has this
+// part of its weight, so that a strain reaches through the body instead of fading behind the
+// surface that is seen.
+constexpr double kBodyRotation = 0.1;
+
 // The rules of a fit's energies. Each energy is a mean over its residuals.
 struct FitRules {
-  explicit FitRules(double spacing) {
+  FitRules(const BuiltGraph& graph, bool is_last) {
     rotation.scale = WeightScale::kPerResidual;
     rotation.stiff = true;
     regularization = rotation;
+    const double spacing = graph.node_spacing;
     regularization.unit = spacing > 0.0 ? 1.0 / (spacing * spacing) : 1.0;
+    if (graph.graph.num_edges() > graph.num_surface_edges) {
+      // The weights are those of the mean over the surface, to which the body adds its part.
+      rotation.unit *= static_cast<double>(graph.graph.num_nodes()) /
+                       std::max(1, graph.graph.num_surface_nodes());
+      regularization.unit *=
+          static_cast<double>(graph.graph.num_edges()) / std::max(1, graph.num_surface_edges);
+      if (is_last) rotation.unit *= kBodyRotation;
+    }
     // The weights of matched pairs are relative areas, whose sum is one.
     data.unit = kPerSquaredLength;
     data.matched = true;
@@ -52,8 +67,8 @@ TermRule RuleOfUser(const EnergyInfo* info) {
 
 }  // namespace
 
-FitProblem::FitProblem(const BuiltGraph& graph, const PointCloud& source)
-    : graph_(graph), source_(source), builder_(graph.graph, /*has_camera=*/false) {}
+FitProblem::FitProblem(const BuiltGraph& graph, const PointCloud& source, bool is_last)
+    : graph_(graph), source_(source), is_last_(is_last), builder_(graph.graph, /*has_camera=*/false) {}
 
 TermInputs FitProblem::Inputs() const {
   TermInputs inputs;
@@ -77,7 +92,7 @@ Status FitProblem::AddEnergies(const FitOptions& options,
                                const std::vector<Correspondence>& fixed) {
   landmarks_ = landmarks;
   fixed_ = fixed;
-  const FitRules rules(graph_.node_spacing);
+  const FitRules rules(graph_, is_last_);
   const FitWeights& weights = options.weights;
   const double point_weight = weights.data * weights.point_to_point_share;
   const double plane_weight = weights.data - point_weight;

@@ -16,7 +16,8 @@ namespace ceres_ed {
 // The graph and the source must outlive this object.
 class FitProblem {
  public:
-  FitProblem(const BuiltGraph& graph, const PointCloud& source);
+  // `is_last` says whether `graph` is the finest one of the fit.
+  FitProblem(const BuiltGraph& graph, const PointCloud& source, bool is_last);
 
   // Adds all energies that `options` select. `landmarks` and `fixed` are in the unit frame. It is
   // an error if an energy or a parameter is unknown.
@@ -42,6 +43,7 @@ class FitProblem {
 
   const BuiltGraph& graph_;
   const PointCloud& source_;
+  const bool is_last_;
   ProblemBuilder builder_;
   TermSet terms_;
   std::vector<Correspondence> correspondences_;

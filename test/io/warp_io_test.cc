@@ -83,6 +83,21 @@ Warp MakeFinishedWarp() {
   return warp;
 }
 
+TEST(WarpFile, ReadsInnerNodesBack) {
+  const TemporaryDirectory directory;
+  Warp warp = MakeWarp();
+  EXPECT_EQ(warp.graph.num_inner_nodes(), 0);
+  warp.state.Resize(22);
+  warp.graph.AddInnerNode({1.0, 2.0, 3.0});
+  warp.graph.AddInnerNode({4.0, 5.0, 6.0});
+  ASSERT_TRUE(WriteWarp(directory / "w.json", warp).ok());
+  const StatusOr<Warp> again = ReadWarp(directory / "w.json");
+  ASSERT_TRUE(again.ok()) << again.status().message();
+  EXPECT_EQ(again->graph.num_nodes(), 22);
+  EXPECT_EQ(again->graph.num_surface_nodes(), 20);
+  EXPECT_EQ(again->graph.position(21), warp.graph.position(21));
+}
+
 TEST(WarpFile, ReadsTheFinishBackToTheSameBits) {
   const TemporaryDirectory directory;
   const Warp warp = MakeFinishedWarp();

@@ -145,11 +145,19 @@ void ReadBinding(const json& root, FieldReader* reader, BindingOptions* binding)
   }
 }
 
+// Files of surfaces, and those of earlier versions, do not have this field.
+int ReadNumInnerNodes(const json& root, int num_nodes, FieldReader* reader) {
+  const auto found = root.find("inner_nodes");
+  return found == root.end() ? 0 : reader->Integer(*found, "inner_nodes", 0, num_nodes - 1);
+}
+
 void ReadNodes(const json& root, FieldReader* reader, Warp* warp) {
   const json& nodes = reader->Array(reader->Member(root, "", "nodes"), "nodes");
   if (reader->ok() && nodes.empty()) reader->Fail("nodes", "is empty, expected at least one");
   if (!reader->ok()) return;
-  warp->state.Resize(static_cast<int>(nodes.size()));
+  const int num_nodes = static_cast<int>(nodes.size());
+  const int num_inner = ReadNumInnerNodes(root, num_nodes, reader);
+  warp->state.Resize(num_nodes);
   for (std::size_t j = 0; j < nodes.size() && reader->ok(); ++j) {
     const std::string place = "nodes[" + std::to_string(j) + "]";
     double* const block = warp->state.node(static_cast<int>(j));
@@ -158,7 +166,11 @@ void ReadNodes(const json& root, FieldReader* reader, Warp* warp) {
     reader->Numbers(reader->Member(nodes[j], place, "A"), place + ".A", kWarpAffineSize, block);
     reader->Numbers(
         reader->Member(nodes[j], place, "t"), place + ".t", 3, block + kNodeTranslationOffset);
-    warp->graph.AddNode(position);
+    if (static_cast<int>(j) < num_nodes - num_inner) {
+      warp->graph.AddNode(position);
+    } else {
+      warp->graph.AddInnerNode(position);
+    }
   }
 }
 

@@ -110,6 +110,9 @@ Status WriteWarp(const std::string& path, const Warp& warp) {
   WriteLines("nodes", nodes, &stream);
   stream << ",\n";
   WriteLines("edges", edges, &stream);
+  if (warp.graph.num_inner_nodes() > 0) {
+    stream << ",\n  \"inner_nodes\": " << warp.graph.num_inner_nodes();
+  }
   if (!warp.finish.empty()) WriteFinish(warp.finish, &stream);
   stream << "\n}\n";
   return (*file)->Commit();

@@ -188,7 +188,9 @@ double NodeStretch(const FittedSurfaces& fit) {
   const std::vector<Eigen::Vector3d>& rest = fit.source->cloud().points;
   const std::vector<int>& nodes = fit.graph->node_points;
   std::vector<double> stretches;
+  const int num_surface_nodes = fit.graph->graph.num_surface_nodes();
   for (const GraphEdge& edge : fit.graph->graph.edges()) {
+    if (std::max(edge.from, edge.to) >= num_surface_nodes) continue;
     const int a = nodes[edge.from];
     const int b = nodes[edge.to];
     AddStretch(rest[b] - rest[a], (*fit.points)[b] - (*fit.points)[a], &stretches);
