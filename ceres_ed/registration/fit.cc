@@ -212,8 +212,7 @@ FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) con
   options.graph.num_threads = options_.num_threads;
   options.graph.volume =
       options_.volume == VolumeRule::kOn ||
-      (options_.volume == VolumeRule::kAuto &&
-       EnclosesBody(source.cloud(), source.topology()));
+      (options_.volume == VolumeRule::kAuto && EnclosesBody(source.cloud(), source.topology()));
   options.graph.volume_weight = options_.weights.volume;
   options.matching.max_distance *= unit_from_target_.scale;
   options.matching.num_threads = options_.num_threads;
@@ -247,6 +246,7 @@ void Fitter::FinishEveryVertex(const UnitFit& fit,
   input.landmarks = fit.landmarks;
   input.fixed = fit.fixed;
   input.matching = fit.options->matching;
+  if (!fit.options->extra_energies.empty()) input.fit = &fit;
   input.should_stop = [this, &fit] { return MustEnd(fit, &result_); };
   input.on_progress = [this](double part) { Report("finish", part); };
   const FinishResult finish = FinishVertices(input, options_.finish_options);

@@ -169,7 +169,9 @@ const OptionTable<FitOptions>& FitOptions::Rows() {
       Nested(
           &O::graph, GraphOptions::Rows(), "graph_", {"node_spacing", "target_nodes", "neighbors"})
           .Internal("graph_threads"),
-      Row(&O::volume, "volume", "Whether SOURCE is a body with nodes inside; auto: if it is closed.")
+      Row(&O::volume,
+          "volume",
+          "Whether SOURCE is a body with nodes inside; auto: if it is closed.")
           .Main(),
       Nested(&O::weights, FitWeights::Rows()),
       Nested(&O::schedule, FitSchedule::Rows()),

@@ -6,8 +6,6 @@
 namespace ceres_ed {
 namespace {
 
-// The unit of distances is a hundredth of the source's diagonal.
-constexpr double kPerSquaredLength = 1e4;
 // Point-to-point uses every kThinning-th correspondence.
 constexpr int kThinning = 4;
 
@@ -53,10 +51,12 @@ struct FitRules {
   TermRule fixed;
 };
 
-TermRule RuleOfUser(const EnergyInfo* info) {
+}  // namespace
+
+TermRule RuleOfUser(EnergyKind kind) {
   TermRule rule;
   rule.is_users = true;
-  if (info != nullptr && info->kind == EnergyKind::kObservation) {
+  if (kind == EnergyKind::kObservation) {
     rule.unit = kPerSquaredLength;
     rule.matched = true;
   } else {
@@ -65,10 +65,11 @@ TermRule RuleOfUser(const EnergyInfo* info) {
   return rule;
 }
 
-}  // namespace
-
 FitProblem::FitProblem(const BuiltGraph& graph, const PointCloud& source, bool is_last)
-    : graph_(graph), source_(source), is_last_(is_last), builder_(graph.graph, /*has_camera=*/false) {}
+    : graph_(graph),
+      source_(source),
+      is_last_(is_last),
+      builder_(graph.graph, /*has_camera=*/false) {}
 
 TermInputs FitProblem::Inputs() const {
   TermInputs inputs;
@@ -109,7 +110,9 @@ Status FitProblem::AddEnergies(const FitOptions& options,
     specs.push_back({"fixed", {"landmark", weights.fixed, {}, {}}, rules.fixed});
   }
   for (const EnergySpec& spec : options.extra_energies) {
-    specs.push_back({spec.name, spec, RuleOfUser(registry.Find(spec.name))});
+    const EnergyInfo* const info = registry.Find(spec.name);
+    const EnergyKind kind = info != nullptr ? info->kind : EnergyKind::kPrior;
+    specs.push_back({spec.name, spec, RuleOfUser(kind)});
   }
   for (const TermSpec& spec : specs) {
     if (Status status = terms_.Add(registry, spec); !status.ok()) return status;

@@ -12,6 +12,12 @@
 
 namespace ceres_ed {
 
+// The unit of distances is a hundredth of the source's diagonal.
+inline constexpr double kPerSquaredLength = 1e4;
+
+// Returns the rule of an energy that the user adds.
+TermRule RuleOfUser(EnergyKind kind);
+
 // The energies of a fit over one graph, in the unit frame, in which the source has the diagonal 1.
 // The graph and the source must outlive this object.
 class FitProblem {

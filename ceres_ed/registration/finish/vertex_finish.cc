@@ -2,9 +2,10 @@
 
 #include <ceres_ed/geometry/noise_estimate.h>
 #include <ceres_ed/geometry/welded_mesh.h>
-#include <ceres_ed/linear_algebra/sparse_cholesky.h>
 #include <ceres_ed/registration/finish/finish_matching.h>
+#include <ceres_ed/registration/finish/finish_system.h>
 #include <ceres_ed/registration/finish/fold_guard.h>
+#include <ceres_ed/registration/finish/own_energies.h>
 
 #include <algorithm>
 #include <cmath>
@@ -53,9 +54,8 @@ class Finisher {
   // Returns the smoothing that the noise requires.
   double Smoothing(const FinishMatcher& matcher) const;
   void PrepareSmoothness();
-  // Adds the weights of `pairs` to the matrix and factorises it.
-  // Returns false if this was stopped.
-  bool Factorize(const std::vector<FinishPair>& pairs);
+  // Sets the weights of the system to those of `pairs`. Returns false if this was stopped.
+  bool SetUp(const std::vector<FinishPair>& pairs);
   // Returns whether the finish was stopped, now or before.
   bool Stopped() {
     stopped_ = stopped_ || (input_.should_stop && input_.should_stop());
@@ -66,7 +66,8 @@ class Finisher {
   }
   // Returns half the gradient of the objective.
   Eigen::MatrixXd Gradient(const std::vector<FinishPair>& pairs) const;
-  void Step(const std::vector<FinishPair>& pairs);
+  // Returns false if this was stopped.
+  bool Step(const std::vector<FinishPair>& pairs);
   void Conclude(const std::vector<FinishPair>& pairs);
 
   const FinishInput& input_;
@@ -76,10 +77,12 @@ class Finisher {
   const std::vector<Eigen::Vector3d> normals_;
   std::vector<Eigen::Vector3d> points_;
   Eigen::MatrixXd displacements_;
-  // lambda B, and the matrix that is factorised.
+  // lambda B, and the system with it.
   SparseCholesky::Matrix smoothness_;
-  SparseCholesky::Matrix matrix_;
-  std::unique_ptr<SparseCholesky> factor_;
+  std::unique_ptr<FinishSystem> system_;
+  std::unique_ptr<OwnEnergies> own_;
+  // The diagonal of the system that is not smoothness.
+  Eigen::VectorXd weights_;
   double epsilon_ = 0.0;
   bool stopped_ = false;
   FinishResult result_;
@@ -108,12 +111,11 @@ void Finisher::PrepareSmoothness() {
   epsilon_ = std::pow(result_.smoothing / options_.fade, 4);
   smoothness_ = SquaredLaplacian(mesh_);
   smoothness_ *= lambda;
-  matrix_ = smoothness_;
   if (Stopped()) return;
-  factor_ = std::make_unique<SparseCholesky>(matrix_, [this] { return Stopped(); });
+  system_ = std::make_unique<FinishSystem>(smoothness_, [this] { return Stopped(); });
 }
 
-bool Finisher::Factorize(const std::vector<FinishPair>& pairs) {
+bool Finisher::SetUp(const std::vector<FinishPair>& pairs) {
   Eigen::VectorXd weights = Eigen::VectorXd::Constant(mesh_.num_vertices(), epsilon_);
   // For a blend b, |sum_i b_i x_i|^2 <= sum_i b_i |x_i|^2; the diagonal matrix therefore majorises.
   for (const FinishPair& pair : pairs) {
@@ -125,14 +127,9 @@ bool Finisher::Factorize(const std::vector<FinishPair>& pairs) {
   for (const Correspondence& fixed : input_.fixed) {
     weights[mesh_.vertex_of_point[fixed.point]] += kFixedWeight;
   }
-  // The diagonal is the first entry of each column.
-  for (int v = 0; v < mesh_.num_vertices(); ++v) {
-    const int diagonal = matrix_.outerIndexPtr()[v];
-    matrix_.valuePtr()[diagonal] = smoothness_.valuePtr()[diagonal] + weights[v];
-  }
-  if (factor_->Factorize(matrix_, [this] { return Stopped(); })) return true;
-  CHECK(stopped_) << "a sum of squares and a positive diagonal";
-  return false;
+  weights_ = std::move(weights);
+  // With energies of the user, each step sets the system up anew.
+  return own_ != nullptr || system_->SetWeights(weights_);
 }
 
 Eigen::MatrixXd Finisher::Gradient(const std::vector<FinishPair>& pairs) const {
@@ -153,14 +150,21 @@ Eigen::MatrixXd Finisher::Gradient(const std::vector<FinishPair>& pairs) const {
   return gradient;
 }
 
-void Finisher::Step(const std::vector<FinishPair>& pairs) {
-  displacements_ -= factor_->Solve(Gradient(pairs));
+bool Finisher::Step(const std::vector<FinishPair>& pairs) {
+  Eigen::MatrixXd gradient = Gradient(pairs);
+  if (own_ != nullptr && !system_->SetWeights(weights_ + own_->Add(points_, &gradient))) {
+    return false;
+  }
+  Eigen::MatrixXd step;
+  if (!system_->Solve(gradient, &step)) return false;
+  displacements_ -= step;
   for (const Correspondence& fixed : input_.fixed) {
     displacements_.row(mesh_.vertex_of_point[fixed.point]).setZero();
   }
   for (int v = 0; v < mesh_.num_vertices(); ++v) {
     points_[v] = start_[v] + displacements_.row(v).transpose();
   }
+  return true;
 }
 
 void Finisher::Conclude(const std::vector<FinishPair>& pairs) {
@@ -190,17 +194,20 @@ FinishResult Finisher::Run() {
       if (pairs.empty() || result_.smoothing > options_.max_smoothing) return std::move(result_);
       if (Stopped()) return std::move(result_);
       PrepareSmoothness();
+      if (input_.fit != nullptr) own_ = OwnEnergies::Create(*input_.fit, mesh_);
     }
     Report(round, 0.3);
-    if (Stopped() || !Factorize(pairs)) return std::move(result_);
+    if (Stopped() || !SetUp(pairs)) return std::move(result_);
     Report(round, 0.6);
-    for (int step = 0; step < options_.steps; ++step) {
-      if (Stopped()) return std::move(result_);
-      Step(pairs);
+    // What the last step of all moves may meet an energy of the user for the first time.
+    const bool is_last = round + 1 == options_.rounds;
+    const int steps = options_.steps + (is_last && own_ != nullptr ? 1 : 0);
+    for (int step = 0; step < steps; ++step) {
+      if (!Step(pairs)) return std::move(result_);
+      Report(round, 0.6 + 0.4 * (step + 1) / steps);
     }
-    Report(round, 1.0);
     if (Stopped()) return std::move(result_);
-    if (round + 1 == options_.rounds) Conclude(pairs);
+    if (is_last) Conclude(pairs);
   }
   for (std::size_t p = 0; p < result_.points.size(); ++p) {
     result_.points[p] = points_[mesh_.vertex_of_point[p]];

@@ -5,6 +5,7 @@
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/registration/fit_options.h>
 #include <ceres_ed/registration/matching.h>
+#include <ceres_ed/registration/unit_fit.h>
 
 #include <functional>
 #include <string>
@@ -32,6 +33,9 @@ struct FinishInput {
   std::vector<Correspondence> landmarks;
   std::vector<Correspondence> fixed;
   MatchingOptions matching;
+  // The fit whose own energies (FitOptions::extra_energies) the finish also obeys; null: there are
+  // none.
+  const UnitFit* fit = nullptr;
   // Called often; if it returns true, nothing is moved.
   std::function<bool()> should_stop;
   // Called with the part of the finish that is done, in [0, 1].
@@ -57,11 +61,12 @@ struct FinishResult {
 // Returns the source's points displaced onto the target. It minimises, over the displacements d,
 //   sum_k w_k [(1 - s) (n_k . r_k)^2 + s |r_k|^2] + lambda sum_v deg_v |d_v - mean of neighbours|^2
 //     + eps |d|^2
+// plus the energies of the user on the vertices (OwnEnergies),
 // with pairs k in both directions (FinishMatcher), r_k the vector from the target of a pair to the
 // blend of its vertices, and lambda and eps from the lengths in `options`. Each step solves a
 // system with a matrix that majorises the Hessian and is the same for x, y and z: diag(sum_k w_k
-// blend_k) + lambda B + eps. It is factorised once per round. At the end displacements are damped
-// around every triangle that they would turn over, or squeeze or stretch too much.
+// blend_k) + lambda B + eps (FinishSystem). It is set up once per round. At the end displacements
+// are damped around every triangle that they would turn over, or squeeze or stretch too much.
 //
 // With noise sigma, and s the robust deviation of the distances beyond the noise, the smoothing is
 // at least 3 sigma / s: the averaging then reduces the noise to a twelfth of the possible gain. The
