@@ -44,13 +44,11 @@ constexpr Ingredient kIngredients[] = {
     {"given_pose",
      "every way starts from the rigid placement",
      [](FitOptions* options) { options->hypotheses = "careful,bold,intrinsic,strict"; }},
-    {"strict_way",
-     "no way has stricter normals than the careful one",
     {"volume",
      "no nodes inside closed sources",
      [](FitOptions* options) { options->volume = VolumeRule::kOff; }},
-    {"careful_way",
-     "few nodes follow the bold way alone",
+    {"strict_way",
+     "no way has stricter normals than the careful one",
      [](FitOptions* options) {
        options->hypotheses = "careful,bold,intrinsic,given_careful,given_bold";
      }},

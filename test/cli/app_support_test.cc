@@ -6,6 +6,7 @@
 
 #include <apps/support/command_line.h>
 #include <apps/support/program.h>
+#include <apps/support/progress_bar.h>
 #include <gflags/gflags.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -132,6 +133,14 @@ TEST(ProgramDeathTest, FirstSignalAsksAndSecondKills) {
     return Outcome::Done();
   };
   EXPECT_EXIT(std::exit(RunWith(dies_of_two)), ::testing::KilledBySignal(SIGTERM), "");
+}
+
+TEST(TimeLeft, IsWhatTheRestTakesAtTheSameSpeed) {
+  EXPECT_EQ(TimeLeft(0.5, 10, 100), "");
+  EXPECT_EQ(TimeLeft(5.0, 0, 100), "");
+  EXPECT_EQ(TimeLeft(5.0, 100, 100), "");
+  EXPECT_EQ(TimeLeft(10.0, 20, 100), "about 40 s left");
+  EXPECT_EQ(TimeLeft(100.0, 10, 100), "about 15 min left");
 }
 
 }  // namespace

@@ -203,8 +203,10 @@ class FitOptions:
     graph_min_component_points: int
     graph_join_pieces: bool
     graph_edges_per_joint: int
+    volume: Literal["auto", "on", "off"]
     w_rot: float
     w_reg: float
+    w_volume: float
     w_data: float
     w_landmark: float
     w_fixed: float
