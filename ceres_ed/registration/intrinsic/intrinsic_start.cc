@@ -111,7 +111,7 @@ StatusOr<FollowedMatches> FollowMatches(const UnitFit& fit,
       const double ratio = distances[i] / width;
       matches[i].weight = given[i].weight * std::exp(-ratio * ratio);
     }
-    FitProblem problem(graph, fit.source->cloud());
+    FitProblem problem(graph, fit.source->cloud(), /*is_last=*/false);
     Status status = problem.AddEnergies(options, *fit.registry, matches, fit.fixed);
     if (!status.ok()) return status;
     problem.SetStiffness(stiffness);
