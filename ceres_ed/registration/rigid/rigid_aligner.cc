@@ -54,7 +54,7 @@ struct RigidAligner::PlanePair {
 struct RigidAligner::StepSums {
   Eigen::Matrix<double, 7, 7> H = Eigen::Matrix<double, 7, 7>::Zero();
   // The part of H that comes from point-to-plane distances.
-  Eigen::Matrix<double, 7, 7> plane_H = Eigen::Matrix<double, 7, 7>::Zero();
+  Eigen::Matrix<double, 7, 7> plane_information = Eigen::Matrix<double, 7, 7>::Zero();
   Vector7 plane_b = Vector7::Zero();
   Vector7 point_b = Vector7::Zero();
   double plane_energy = 0.0;
@@ -193,7 +193,7 @@ bool RigidAligner::Collect(const std::vector<PlanePair>& pairs,
     };
     const Vector7 J_plane = derivative(pair.normal);
     const double r_plane = pair.normal.dot(gap);
-    sums->plane_H += weight * J_plane * J_plane.transpose();
+    sums->plane_information += weight * J_plane * J_plane.transpose();
     sums->plane_b -= weight * r_plane * J_plane;
     sums->plane_energy += weight * r_plane * r_plane;
     for (int axis = 0; axis < 3; ++axis) {
@@ -204,7 +204,7 @@ bool RigidAligner::Collect(const std::vector<PlanePair>& pairs,
     sums->weight += weight;
     sums->spread += weight * arm.squaredNorm();
   }
-  sums->H += sums->plane_H;
+  sums->H += sums->plane_information;
   return sums->spread > 0.0;
 }
 
@@ -275,7 +275,7 @@ double RigidAligner::LeastCurvature(const Similarity& pose) const {
   Eigen::Matrix<double, 6, 1> per_unit;
   per_unit << Eigen::Vector3d::Constant(1.0 / lever), Eigen::Vector3d::Ones();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 6, 6>> eigen(
-      per_unit.asDiagonal() * sums.plane_H.topLeftCorner<6, 6>() * per_unit.asDiagonal());
+      per_unit.asDiagonal() * sums.plane_information.topLeftCorner<6, 6>() * per_unit.asDiagonal());
   return std::clamp(eigen.eigenvalues()[0] / sums.weight, 0.0, 1.0);
 }
 
