@@ -20,6 +20,9 @@ class EvaluateConsole : public ConsoleObserver<EvaluateObserver> {
   void OnPair(const Evaluation& evaluation) override {
     console().Summarize(EvaluationTable(evaluation));
   }
+  void OnCalibration(const CalibrationFigures& calibration) override {
+    console().Summarize(CalibrationTable(calibration));
+  }
   void OnSequence(const SequenceFigures& figures) override {
     console().Summarize(SequenceTables(figures));
   }

@@ -20,6 +20,11 @@ const OptionTable<EvalSettings>& EvalRows() {
           "truth",
           "PLY with the true positions of the points of RESULT.ply, in their order.")
           .File(),
+      Row(&S::calibration,
+          "calibration",
+          "PLY that ed_fit --covariance has written for RESULT.ply; with --truth, its covariances "
+          "are compared with the errors.")
+          .File(),
       Row(&S::sequence, "sequence", "Folder of a depth sequence, for which --result is measured.")
           .File(),
       Row(&S::result, "result", "Folder that ed_slam wrote for --sequence.").File(),
@@ -49,6 +54,9 @@ StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments) 
     if (arguments.size() != 2) {
       return Status::Error(std::to_string(arguments.size()) + " arguments given, " + kUses);
     }
+    if (!settings.calibration.empty() && settings.truth.empty()) {
+      return Status::Error("--calibration without --truth, expected both");
+    }
     settings.fitted = arguments[0];
     settings.target = arguments[1];
     return settings;
@@ -60,7 +68,8 @@ StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments) 
   }
   for (const auto& [name, value] : {std::pair("source", settings.source),
                                     std::pair("truth", settings.truth),
-                                    std::pair("error_ply", settings.error_ply)}) {
+                                    std::pair("error_ply", settings.error_ply),
+                                    std::pair("calibration", settings.calibration)}) {
     if (!value.empty()) {
       return Status::Error("--" + std::string(name) +
                            " beside --sequence, expected it with a pair only");

@@ -27,7 +27,46 @@ std::string Line(const char* format, double value) {
   return line;
 }
 
+std::string CalibrationRow(const char* name, const std::optional<Calibration>& part) {
+  if (!part) return "";
+  char row[160];
+  std::snprintf(row,
+                sizeof(row),
+                "%-28s %8d %8.1f %8.1f %8.1f %9.3f %6.2f %6.2f\n",
+                name,
+                part->points,
+                100.0 * part->coverage_50,
+                100.0 * part->coverage_80,
+                100.0 * part->coverage_95,
+                part->negative_log_likelihood,
+                part->ause,
+                part->rank_correlation);
+  return row;
+}
+
 }  // namespace
+
+std::string CalibrationTable(const CalibrationFigures& calibration) {
+  char header[160];
+  std::snprintf(header,
+                sizeof(header),
+                "%-28s %8s %8s %8s %8s %9s %6s %6s\n",
+                "in ellipsoids of ... percent",
+                "points",
+                "50",
+                "80",
+                "95",
+                "nll",
+                "ause",
+                "rank");
+  std::string table = header + CalibrationRow("all", calibration.all) +
+                      CalibrationRow("near the target", calibration.seen) +
+                      CalibrationRow("hidden from the target", calibration.hidden);
+  if (calibration.unknown > 0) {
+    table += std::to_string(calibration.unknown) + " points have no covariance\n";
+  }
+  return table;
+}
 
 std::string EvaluationTable(const Evaluation& evaluation) {
   const double diagonal = evaluation.diagonal;

@@ -29,6 +29,12 @@ const OptionTable<FitSettings>& FitSettingsRows() {
       Row(&S::warp, "warp", "JSON to write: the deformation, for ed_apply.").File(),
       Row(&S::graph, "graph", "PLY to write: the fitted nodes and edges.").File(),
       Row(&S::report, "report", "JSON to write: the settings, errors and times of the fit.").File(),
+      Row(&S::covariance,
+          "covariance",
+          "PLY to write: the covariance xx xy xz yy yz zz of each point. Without a file name: only "
+          "std_dev in OUT.ply.")
+          .File()
+          .Alone("true"),
       Row(&S::landmarks,
           "landmarks",
           "CSV to read, rows source_index,x,y,z: positions in the frame of TARGET.")
@@ -42,7 +48,7 @@ const OptionTable<FitSettings>& FitSettingsRows() {
           .Main(),
       Row(&S::repair, "repair", "Mend what ed_check finds and what is safe to mend.").Main(),
       Row(&S::fail_if, "fail_if", "End with exit code 3 if the verdict is this, or worse.").Main(),
-      Nested(&S::options, FitOptions::Rows()),
+      Nested(&S::options, FitOptions::Rows()).Internal("covariance"),
   });
   return rows;
 }
@@ -64,7 +70,8 @@ const OptionFlags<FitFlags> kFlags(FitFlagsRows());
 // overwrite the other.
 Status CheckOutputNames(const FitSettings& settings) {
   if (settings.output.empty()) return Status::Error("flag --output is required");
-  const std::string outputs[] = {settings.output, settings.warp, settings.graph, settings.report};
+  const std::string outputs[] = {
+      settings.output, settings.warp, settings.graph, settings.report, settings.covariance};
   for (const std::string& one : outputs) {
     int uses = 0;
     for (const std::string& other : outputs) uses += one == other ? 1 : 0;
@@ -83,6 +90,8 @@ StatusOr<FitCommand> ReadFitFlags() {
   FitCommand command;
   static_cast<FitSettings&>(command) = std::move(read->settings);
   command.quiet = read->quiet;
+  command.options.covariance = !command.covariance.empty() && command.covariance != "false";
+  if (command.covariance == "true" || command.covariance == "false") command.covariance.clear();
   if (Status status = CheckOutputNames(command); !status.ok()) return status;
   if (const auto scale = ParseScale(command.scale); !scale.ok()) return scale.status();
   StatusOr<std::vector<EnergySpec>> energies = ParseEnergySpecs(read->energy);

@@ -115,6 +115,10 @@ class Parser {
     }
     if (!has_value) {
       if (flag.type == "bool") return SetFlag(flag, "true");
+      const OptionFlag* option = FindOptionFlag(name);
+      if (option != nullptr && !option->option->text_alone.empty()) {
+        return SetFlag(flag, option->option->text_alone);
+      }
       if (depth > 0 || next_ >= words_.size()) {
         return Status::Error("flag --" + name + " needs a value");
       }

@@ -94,6 +94,15 @@ bool RegularizedInverse::PropagateSelected(const std::vector<BlockDerivative>& p
   return complete;
 }
 
+Eigen::VectorXd RegularizedInverse::SolveLocked(const Eigen::VectorXd& rhs) const {
+  return (kStrongerBy * weak_.Solve(rhs) - strong_.Solve(rhs)) / (kStrongerBy - 1.0);
+}
+
+Eigen::VectorXd RegularizedInverse::Solve(const Eigen::VectorXd& rhs) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return SolveLocked(rhs);
+}
+
 Eigen::MatrixXd RegularizedInverse::Solve(const std::vector<BlockDerivative>& parts) const {
   const Eigen::Index rows = parts.front().jacobian.rows();
   Eigen::MatrixXd result(rows, rows);
@@ -104,8 +113,7 @@ Eigen::MatrixXd RegularizedInverse::Solve(const std::vector<BlockDerivative>& pa
       rhs.segment(structure_.row_offset(part.block), structure_.size(part.block)) +=
           part.jacobian.row(r).transpose();
     }
-    const Eigen::VectorXd solved =
-        (kStrongerBy * weak_.Solve(rhs) - strong_.Solve(rhs)) / (kStrongerBy - 1.0);
+    const Eigen::VectorXd solved = SolveLocked(rhs);
     result.col(r).setZero();
     for (const BlockDerivative& part : parts) {
       result.col(r) += part.jacobian * solved.segment(structure_.row_offset(part.block),

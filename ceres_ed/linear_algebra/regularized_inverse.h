@@ -50,7 +50,10 @@ class RegularizedInverse {
   // that direction. May be called from several threads at once.
   Eigen::MatrixXd Propagate(const std::vector<BlockDerivative>& parts) const;
 
-  // Computes the same without solves. If parts of Z are missing, they count as zero, and it returns
+  // Returns H^-1 `rhs`, with the same treatment of undetermined blocks.
+  Eigen::VectorXd Solve(const Eigen::VectorXd& rhs) const;
+
+  // Computes Propagate() without solves. If parts of Z are missing, they count as zero, and it returns
   // false.
   bool PropagateSelected(const std::vector<BlockDerivative>& parts, Eigen::MatrixXd* result) const;
 
@@ -60,6 +63,8 @@ class RegularizedInverse {
 
   bool Invert(const std::vector<double>& values, int num_threads);
   Eigen::MatrixXd Solve(const std::vector<BlockDerivative>& parts) const;
+  // Needs mutex_.
+  Eigen::VectorXd SolveLocked(const Eigen::VectorXd& rhs) const;
 
   const BlockStructure structure_;
   // The factors of H + e D and of H + 10 e D.

@@ -141,23 +141,4 @@ std::vector<std::string> TermSet::IdleEnergies() const {
   return labels;
 }
 
-std::vector<int> TermSet::MeasuredTerms(const ProblemBuilder& builder) const {
-  const auto is_active = [&builder](int i) {
-    return builder.weight(i) > 0.0 && builder.NumResidualBlocks(i) > 0;
-  };
-  bool seen_whole = false;
-  for (int i = 0; i < size(); ++i) {
-    const TermRule& rule = terms_[i].spec.rule;
-    const bool follows_matches = rule.loss_width == LossWidth::kCorrespondences;
-    if (follows_matches && !rule.thinned && is_active(i)) seen_whole = true;
-  }
-  std::vector<int> measured;
-  for (int i = 0; i < size(); ++i) {
-    const Term& term = terms_[i];
-    if (term.energy->kind() != EnergyKind::kObservation || !is_active(i)) continue;
-    if (!term.spec.rule.thinned || !seen_whole) measured.push_back(i);
-  }
-  return measured;
-}
-
 }  // namespace ceres_ed

@@ -117,10 +117,6 @@ class TermSet {
   // Labels of the user's terms that have not added a residual to any builder yet.
   std::vector<std::string> IdleEnergies() const;
 
-  // The observations of positive weight that `builder` has residuals of, each measurement once: a
-  // thinned term sees correspondences a second time where another term sees all of them.
-  std::vector<int> MeasuredTerms(const ProblemBuilder& builder) const;
-
  private:
   struct Term {
     TermSpec spec;

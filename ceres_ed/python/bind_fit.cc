@@ -159,15 +159,27 @@ void BindArrays(ResultClass* result) {
           "The normals of the deformed source, (N, 3) float64; a view. None if it has none.")
       .def_property_readonly(
           "std_dev",
-          [](const py::object& self) -> py::object {
-            std::vector<double>& deviations =
-                self.cast<FittedSurface&>().result.uncertainty.std_dev;
+          [](const FittedSurface& self) -> py::object {
+            const std::vector<double> deviations = self.result.uncertainty.StandardDeviations();
             if (deviations.empty()) return py::none();
-            return py::array_t<double>(
-                static_cast<py::ssize_t>(deviations.size()), deviations.data(), self);
+            return py::array_t<double>(static_cast<py::ssize_t>(deviations.size()),
+                                       deviations.data());
           },
-          "The standard deviation of each point in the source's unit, (N,) float64; a view. NaN if "
-          "the data do not determine it. None without covariance=True.")
+          "The standard deviation of each point in the target's unit, the root of the trace of its "
+          "covariance, (N,) float64. NaN if nothing determines it. None without covariance=True.")
+      .def_property_readonly(
+          "covariance",
+          [](const py::object& self) -> py::object {
+            std::vector<Eigen::Matrix3d>& covariances =
+                self.cast<FittedSurface&>().result.uncertainty.covariances;
+            if (covariances.empty()) return py::none();
+            return py::array_t<double>(
+                {static_cast<py::ssize_t>(covariances.size()), py::ssize_t{3}, py::ssize_t{3}},
+                covariances.front().data(),
+                self);
+          },
+          "The covariance of each point in the target's squared unit, (N, 3, 3) float64; a view. "
+          "NaN if nothing determines it. None without covariance=True.")
       .def_property_readonly(
           "triangles",
           [](const py::object& self) {

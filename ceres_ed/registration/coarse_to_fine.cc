@@ -4,9 +4,9 @@
 #include <ceres_ed/graph/edges.h>
 #include <ceres_ed/registration/evidence/way_agreement.h>
 #include <ceres_ed/registration/fit_problem.h>
-#include <ceres_ed/registration/fit_uncertainty.h>
 #include <ceres_ed/registration/hypotheses/explanation.h>
 #include <ceres_ed/registration/intrinsic/intrinsic_start.h>
+#include <ceres_ed/registration/uncertainty/fit_uncertainty.h>
 
 #include <algorithm>
 #include <cmath>
@@ -161,12 +161,8 @@ Status CoarseToFine::RunResolution(int resolution,
   Status status = problem.AddEnergies(*fit_.options, *fit_.registry, fit_.landmarks, fit_.fixed);
   if (!status.ok()) return status;
   RunNonrigidLoop(fit_, graph, plan, &problem, state, result);
-  if (fit_.options->covariance) {
-    if (EndedEarly(*result)) {
-      DropUncertainty("the fit ended early", result);
-    } else if (plan.is_last) {
-      MeasureUncertainty(fit_, graph, problem, *state, result);
-    }
+  if (fit_.options->covariance && plan.is_last && !EndedEarly(*result)) {
+    MeasureUncertainty(fit_, graph, *state, &problem, result);
   }
   return Status::Ok();
 }

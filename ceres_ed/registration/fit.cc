@@ -17,6 +17,7 @@
 #include <ceres_ed/registration/normal_spread.h>
 #include <ceres_ed/registration/placement.h>
 #include <ceres_ed/registration/prepared_surface.h>
+#include <ceres_ed/registration/uncertainty/fit_uncertainty.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -352,8 +353,10 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
   result_.matches.rms_plane /= unit_from_target_.scale;
   result_.matches.rms_point /= unit_from_target_.scale;
   result_.matches.robust_distance /= unit_from_target_.scale;
-  const double unit_from_source = unit_from_target_.scale * result_.rigid.scale;
-  for (double& deviation : result_.uncertainty.std_dev) deviation /= unit_from_source;
+  // The frame of the target has the same axes as the unit frame.
+  for (Eigen::Matrix3d& covariance : result_.uncertainty.covariances) {
+    covariance /= unit_from_target_.scale * unit_from_target_.scale;
+  }
 }
 
 void Fitter::WarnAboutReflections(const DeformationState& state) {
@@ -407,6 +410,10 @@ StatusOr<FitResult> Fitter::Run() {
   Report("graph", 0.0);
   CoarseToFine coarse_to_fine(fit);
   if (Status status = coarse_to_fine.Run(&result_); !status.ok()) return status;
+  if (options_.covariance && (result_.status == SolveStatus::kTimeLimit ||
+                              result_.status == SolveStatus::kInterrupted)) {
+    DropUncertainty("the fit ended early", &result_);
+  }
   // 3. The warp in the source frame, and the finish of every vertex.
   Finish(fit, coarse_to_fine.graph(), coarse_to_fine.state());
   MeasureQuality(coarse_to_fine.graph());

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <glog/logging.h>
+
 namespace ceres_ed {
 namespace {
 
@@ -124,6 +126,11 @@ Status FitProblem::AddEnergies(const FitOptions& options,
 void FitProblem::SetStiffness(double stiffness) {
   stiffness_ = stiffness;
   terms_.Weigh(Inputs(), &builder_);
+}
+
+void FitProblem::SetWeights(const std::vector<double>& weights) {
+  CHECK_EQ(static_cast<int>(weights.size()), builder_.num_terms());
+  for (int term = 0; term < builder_.num_terms(); ++term) builder_.SetWeight(term, weights[term]);
 }
 
 void FitProblem::SetMatches(const Matches& matches, double loss_width) {

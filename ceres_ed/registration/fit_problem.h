@@ -38,11 +38,13 @@ class FitProblem {
   // Replaces the matches; `loss_width` is in the unit frame.
   void SetMatches(const Matches& matches, double loss_width);
 
+  // Sets the weight of each term of the builder, until one of the functions above is called.
+  void SetWeights(const std::vector<double>& weights);
+
   const ProblemBuilder& builder() const { return builder_; }
 
-  // Returns the terms of the measurements, with each measurement once: the observations, without
-  // the few pairs that point-to-point uses a second time.
-  std::vector<int> MeasuredTerms() const { return terms_.MeasuredTerms(builder_); }
+  // Returns how a term of the builder takes part.
+  const TermRule& rule(int term) const { return terms_.spec(term).rule; }
 
  private:
   TermInputs Inputs() const;

@@ -60,26 +60,30 @@ struct FitTimes {
   double finish = 0.0;
 };
 
-// How well the data determine the warp, derived from the residuals of the last round and their
-// values at its end:
-//   Cov(p) = s0^2 J_p (J^T J)^-1 J_p^T
-// Here J is the Jacobian of all weighted residuals, J_p the Jacobian of a warped point
-// (solver/covariance/state_covariance.h), and s0^2 the variance factor of the data
-// (solver/covariance/variance_factor.h). The result holds under these assumptions: the
-// correspondences are correct and their errors are independent; the rigid placement is known; E_rot
-// and E_reg are Gaussian priors with their last weights, relative to the data; the finish and the
-// unfolding add no uncertainty.
+// How well the position of every point is determined:
+//   Cov(p) = k (J_p Z J_p^T + sum_m e_m e_m^T),  Z = (J^T W J)^-1
+// J is the Jacobian of all residuals at the end of the fit, W gives them the weights with which
+// they are in units of their standard deviations (uncertainty/statistical_weights.h), and J_p is
+// the Jacobian of the warped point. e_m is the error of the point if the deformation has one
+// standard deviation of a smooth mode of the whole body (uncertainty/smooth_modes.h), which the
+// priors resist where no data determine it. k = kScale is fitted to known errors
+// (scripts/bench_uncertainty.py). The rigid placement is part of it: no prior holds the nodes
+// against a common motion. Wrong matches are not.
 struct FitUncertainty {
-  // The square root of the trace of Cov(p) for each source point, in the unit of the source; NaN if
-  // a node to which the point is bound is undetermined. Empty if it was not requested or cannot be
-  // computed; in the second case a warning gives the reason.
-  std::vector<double> std_dev;
-  // s0^2 of the residuals as they are weighted in the objective, without unit.
-  double variance_factor = 0.0;
+  // k, without unit.
+  static constexpr double kScale = 1.0;
+
+  // Cov(p) of each source point in the frame of the target, in its squared unit; NaN if a node to
+  // which the point is bound is undetermined. Empty if it was not requested or cannot be computed;
+  // in the second case a warning gives the reason.
+  std::vector<Eigen::Matrix3d> covariances;
   // The nodes of the warp that are undetermined in some direction, in ascending order.
   std::vector<int> undetermined_nodes;
   // The computation time in seconds.
   double time = 0.0;
+
+  // Returns the square root of the trace of each covariance, in the unit of the target.
+  std::vector<double> StandardDeviations() const;
 };
 
 // The result of a fit. Its initial status is failed.

@@ -122,6 +122,8 @@ struct Option {
   // The words for true and false on the command line, if the flag of a bool takes words.
   std::string word_for_true;
   std::string word_for_false;
+  // The text that the flag means without a value; empty if it needs one.
+  std::string text_alone;
   ResumeRule resume = ResumeRule::kKeep;
 };
 
@@ -184,6 +186,10 @@ class OptionRows {
       option->word_for_true = for_true;
       option->word_for_false = for_false;
     });
+  }
+  // A text whose flag may stand without a value, and then means `text`.
+  OptionRows Alone(const char* text) const {
+    return With([=](Option* option) { option->text_alone = text; });
   }
   // For rows of a nested struct: the member of that name is set by the library.
   OptionRows Internal(const std::string& name) const {

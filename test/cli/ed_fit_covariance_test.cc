@@ -1,4 +1,5 @@
-// ed_fit --covariance: a standard deviation for each vertex, in the source's unit.
+// ed_fit --covariance: a standard deviation for each vertex, in the target's unit.
+#include <ceres_ed/evaluation/covariance_calibration.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/util/statistics.h>
 
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Eigenvalues>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -82,7 +84,8 @@ TEST_F(EdFitCovarianceTest, IsLargerWhereTheTargetShowsNothing) {
   }
   ASSERT_GT(seen.size(), 100u);
   ASSERT_GT(hidden.size(), 100u);
-  EXPECT_GT(Median(hidden), 3.0 * Median(seen));
+  // What is seen may have slid along itself, which is most of its deviation.
+  EXPECT_GT(Median(hidden), 1.5 * Median(seen));
   const nlohmann::json report = Report()["covariance"];
   EXPECT_NEAR(report["median"], Median(deviations), 0.01 * Median(deviations));
   EXPECT_EQ(report["undetermined_points"], 0);
@@ -90,7 +93,54 @@ TEST_F(EdFitCovarianceTest, IsLargerWhereTheTargetShowsNothing) {
   EXPECT_GE(report["max"], report["p95"]);
 }
 
-TEST_F(EdFitCovarianceTest, IsInTheUnitOfTheSource) {
+TEST_F(EdFitCovarianceTest, FileHasTheCovarianceOfEachVertex) {
+  const std::string path = dir_ / "covariance.ply";
+  const ProgramResult run = RunProgramFile(
+      AppPath("ed_fit"),
+      {Shipped("source.ply"), Shipped("target.ply"), "--output=" + Out(), "--covariance=" + path});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  const StatusOr<LoadedCloud> fitted = LoadCloud(Out());
+  const StatusOr<LoadedCloud> written = LoadCloud(path);
+  const StatusOr<std::vector<Eigen::Matrix3d>> covariances = ReadCovariances(path);
+  ASSERT_TRUE(fitted.ok() && written.ok() && covariances.ok());
+  ASSERT_EQ(covariances->size(), fitted->cloud.size());
+  const std::vector<double>& deviations = fitted->document.Find("vertex")->Find("std_dev")->values;
+  for (std::size_t p = 0; p < covariances->size(); ++p) {
+    EXPECT_LT((written->cloud.points[p] - fitted->cloud.points[p]).norm(), 1e-6);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen((*covariances)[p]);
+    ASSERT_GT(eigen.eigenvalues()[0], 0.0) << p;
+    ASSERT_NEAR(std::sqrt(eigen.eigenvalues().sum()), deviations[p], 1e-6 * deviations[p]) << p;
+  }
+}
+
+// Over the whole body, and where the target shows it and where it does not. The truth is that of
+// the generator; the scale was fitted to other pairs.
+TEST_F(EdFitCovarianceTest, EllipsoidsCoverTheTruth) {
+  const std::string path = dir_ / "covariance.ply";
+  ASSERT_EQ(RunProgramFile(AppPath("ed_fit"),
+                           {Shipped("source.ply"),
+                            Shipped("target.ply"),
+                            "--output=" + Out(),
+                            "--covariance=" + path})
+                .exit_code,
+            0);
+  const ProgramResult run = RunProgramFile(AppPath("ed_eval"),
+                                           {Out(),
+                                            Shipped("target.ply"),
+                                            "--truth=" + Shipped("gt.ply"),
+                                            "--calibration=" + path,
+                                            "--report=" + (dir_ / "eval.json")});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_THAT(run.out, HasSubstr("hidden from the target"));
+  const nlohmann::json report =
+      nlohmann::json::parse(std::ifstream(dir_ / "eval.json"))["calibration"];
+  EXPECT_EQ(report["unknown"], 0);
+  EXPECT_GT(report["all"]["rank_correlation"], 0.6);
+  EXPECT_LT(report["all"]["ause"], 0.5);
+  EXPECT_GT(report["all"]["coverage_95"], 0.6);
+}
+
+TEST_F(EdFitCovarianceTest, IsInTheUnitOfTheTarget) {
   const std::vector<double> metres = Deviations(Shipped("source.ply"), Shipped("target.ply"));
   const std::vector<double> millimetres =
       Deviations(Scaled(Shipped("source.ply"), 1000.0, "source.ply"),

@@ -179,25 +179,6 @@ TEST(TermSet, NamesTermsOfTheUserThatHaveAddedNothing) {
   EXPECT_TRUE(strip.terms.IdleEnergies().empty());
 }
 
-TEST(TermSet, CountsEachMeasurementOnce) {
-  StripTerms strip;
-  TermRule data;
-  data.loss_width = LossWidth::kCorrespondences;
-  TermRule few = data;
-  few.thinned = true;
-  strip.Add("rotation", {});
-  strip.Add("point_to_plane", data);
-  strip.Add("point_to_point", few);
-  strip.Add("landmark", {});
-  strip.Add("point_to_point", {}, /*weight=*/0.0);
-  strip.inputs.thinned = &strip.problem.correspondences;
-  strip.terms.AddTo(strip.inputs, TermLevels::kLevelOne, &strip.builder);
-  EXPECT_THAT(strip.terms.MeasuredTerms(strip.builder), ElementsAre(1, 3));
-  // Where no other term sees the pairs, the thinned one has measured them.
-  strip.builder.SetWeight(1, 0.0);
-  EXPECT_THAT(strip.terms.MeasuredTerms(strip.builder), ElementsAre(2, 3));
-}
-
 TEST(TermSet, RefusesWhatNoProblemCanWeigh) {
   TermSet terms;
   const auto message = [&terms](const EnergySpec& energy) {

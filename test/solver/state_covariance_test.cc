@@ -1,7 +1,8 @@
 // Compares covariances with those of Ceres, and tests cases in which there are none.
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/linear_algebra/block_structure.h>
 #include <ceres_ed/solver/covariance/state_covariance.h>
-#include <ceres_ed/solver/covariance/variance_factor.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <cmath>
 #include <memory>
@@ -236,34 +237,18 @@ TEST(StateCovariance, NamesAResidualThatCannotBeEvaluated) {
       << covariance.status().message();
 }
 
-// Over all residuals, tr(Z J^T J) = tr(I); s0^2 is then the cost divided by the redundancy.
-TEST(VarianceFactor, CountsEveryParameterOnce) {
-  for (const bool has_camera : {false, true}) {
-    const TestProblem problem = MakeProblem(has_camera);
-    const std::unique_ptr<ProblemBuilder> builder = MakeBuilder(problem, {LossType::kHuber, 1e3});
-    const DeformationState state = RandomState(problem, 0.05, 3);
-    const StateCovariance covariance = CovarianceOf(*builder, state);
-    const EnergySummary energy = builder->Evaluate(state);
-    std::vector<int> terms;
-    int rows = 0;
-    for (int t = 0; t < builder->num_terms(); ++t) {
-      terms.push_back(t);
-      rows += energy.terms[t].residuals;
-    }
-    const ProblemConfig config = FullConfig(state.num_nodes(), has_camera);
-    const StatusOr<VarianceFactor> factor =
-        EstimateVarianceFactor(*builder, config, state, covariance, terms, 1);
-    ASSERT_TRUE(factor.ok());
-    const int parameters = state.num_nodes() * kNodeSize + (has_camera ? 6 : 0);
-    EXPECT_NEAR(factor->parameters, parameters, kTolerance * parameters);
-    EXPECT_NEAR(factor->rows, rows, 1e-9 * rows);
-    EXPECT_NEAR(factor->squared_residuals, 2.0 * energy.Total(), 1e-9 * energy.Total());
-    EXPECT_NEAR(factor->value, 2.0 * energy.Total() / (rows - parameters), 1e-6 * factor->value);
-    const StatusOr<VarianceFactor> again =
-        EstimateVarianceFactor(*builder, config, state, covariance, terms, 3);
-    ASSERT_TRUE(again.ok());
-    EXPECT_EQ(again->value, factor->value);
-  }
+// With force = J^T J v the change is v.
+TEST(StateCovariance, FindsTheChangeThatAForceCauses) {
+  const TestProblem problem = MakeProblem(/*has_camera=*/false);
+  const std::unique_ptr<ProblemBuilder> builder = MakeBuilder(problem, {LossType::kHuber, 1e3});
+  const DeformationState state = RandomState(problem, 0.05, 3);
+  const ProblemConfig config = FullConfig(state.num_nodes(), false);
+  const Assembled assembled = AssembleInBlocks(*builder, config, state, 1);
+  Eigen::VectorXd change(assembled.gradient.size());
+  for (Eigen::Index i = 0; i < change.size(); ++i) change[i] = std::sin(1.0 + 0.7 * double(i));
+  const Eigen::VectorXd force = assembled.H * change;
+  EXPECT_LT((CovarianceOf(*builder, state).SolveNodes(force) - change).norm(),
+            1e-5 * change.norm());
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <ceres_ed/preflight/compare_sizes.h>
 #include <ceres_ed/version.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -20,6 +21,30 @@ Status Load(const std::string& path, PointCloud* cloud) {
   StatusOr<LoadedCloud> loaded = LoadCloud(path);
   if (loaded.ok()) *cloud = std::move(loaded->cloud);
   return loaded.status();
+}
+
+// Compares the covariances in settings.calibration with the errors. What lies within 1 % of the
+// target's diagonal of the target is seen.
+StatusOr<CalibrationFigures> Calibrate(const EvalSettings& settings,
+                                       const PointCloud& result,
+                                       const PointCloud& truth,
+                                       const PointCloud& target,
+                                       double diagonal) {
+  constexpr double kSeenWithin = 0.01;
+  const StatusOr<std::vector<Eigen::Matrix3d>> covariances = ReadCovariances(settings.calibration);
+  if (!covariances.ok()) return covariances.status();
+  if (covariances->size() != result.size()) {
+    return Status::Error(settings.calibration + ": " + std::to_string(covariances->size()) +
+                         " vertices, expected " + std::to_string(result.size()) + " as in " +
+                         settings.fitted);
+  }
+  std::vector<Eigen::Vector3d> errors = result.points;
+  for (std::size_t p = 0; p < errors.size(); ++p) errors[p] -= truth.points[p];
+  std::vector<char> is_seen;
+  for (const double distance : SurfaceDistances(truth.points, target)) {
+    is_seen.push_back(distance <= kSeenWithin * diagonal ? 1 : 0);
+  }
+  return MeasureCalibration(errors, *covariances, is_seen);
 }
 
 }  // namespace
@@ -52,12 +77,20 @@ Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer) {
   const StatusOr<Evaluation> evaluation =
       Evaluate(result, target, settings.source.empty() ? nullptr : &source, truth);
   if (!evaluation.ok()) return Outcome::BadInput(evaluation.status());
+  std::optional<CalibrationFigures> calibration;
+  if (!settings.calibration.empty()) {
+    StatusOr<CalibrationFigures> measured =
+        Calibrate(settings, result, *truth, target, evaluation->diagonal);
+    if (!measured.ok()) return Outcome::BadInput(measured.status());
+    calibration = *std::move(measured);
+  }
 
   if (!settings.report.empty()) {
     nlohmann::ordered_json report = {{"program", "ed_eval"}, {"version", kVersion}};
     report["result"] = {{"path", settings.fitted}, {"points", result.size()}};
     report["target"] = {{"path", settings.target}, {"points", target.size()}};
     report.update(EvaluationReport(*evaluation));
+    if (calibration) report["calibration"] = CalibrationReport(*calibration);
     report["flags"] = FlagsReport(settings.flags);
     if (Status status = WriteReport(settings.report, report); !status.ok()) {
       return Outcome::BadInput(status);
@@ -70,6 +103,7 @@ Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer) {
     if (!status.ok()) return Outcome::BadInput(status);
   }
   observer->OnPair(*evaluation);
+  if (calibration) observer->OnCalibration(*calibration);
   return Outcome::Done();
 }
 

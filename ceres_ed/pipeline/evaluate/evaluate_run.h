@@ -2,6 +2,7 @@
 #ifndef CERES_ED_PIPELINE_EVALUATE_EVALUATE_RUN_H_
 #define CERES_ED_PIPELINE_EVALUATE_EVALUATE_RUN_H_
 
+#include <ceres_ed/evaluation/covariance_calibration.h>
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/evaluation/sequence_figures.h>
 #include <ceres_ed/pipeline/evaluate/evaluate_settings.h>
@@ -14,6 +15,8 @@ namespace ceres_ed {
 class EvaluateObserver : public RunObserver {
  public:
   virtual void OnPair(const Evaluation& /*evaluation*/) {}
+  // Follows OnPair() if covariances were given.
+  virtual void OnCalibration(const CalibrationFigures& /*calibration*/) {}
   virtual void OnSequence(const SequenceFigures& /*figures*/) {}
 };
 

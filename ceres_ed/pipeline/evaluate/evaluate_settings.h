@@ -16,6 +16,7 @@ struct EvalSettings {
   std::string source;
   std::string truth;
   std::string error_ply;
+  std::string calibration;
   // For a sequence.
   std::string sequence;
   std::string result;

@@ -22,7 +22,26 @@ ordered_json OrNull(const std::optional<double>& value) {
   return value ? ordered_json(*value) : ordered_json(nullptr);
 }
 
+ordered_json PartReport(const std::optional<Calibration>& part) {
+  if (!part) return nullptr;
+  return {{"points", part->points},
+          {"coverage_50", part->coverage_50},
+          {"coverage_80", part->coverage_80},
+          {"coverage_95", part->coverage_95},
+          {"reliability", part->reliability},
+          {"negative_log_likelihood", part->negative_log_likelihood},
+          {"ause", part->ause},
+          {"rank_correlation", part->rank_correlation}};
+}
+
 }  // namespace
+
+ordered_json CalibrationReport(const CalibrationFigures& calibration) {
+  return {{"all", PartReport(calibration.all)},
+          {"seen", PartReport(calibration.seen)},
+          {"hidden", PartReport(calibration.hidden)},
+          {"unknown", calibration.unknown}};
+}
 
 ordered_json EvaluationReport(const Evaluation& evaluation) {
   const double diagonal = evaluation.diagonal;

@@ -10,8 +10,10 @@
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/preflight/repair.h>
 
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <sstream>
 #include <utility>
 
 namespace ceres_ed {
@@ -87,23 +89,71 @@ StatusOr<LoadedCloud> LoadInput(const std::string& path, bool repair) {
   return loaded;
 }
 
-// Returns the document of the source with a property std_dev. Its value is kUnknown for a vertex
-// without a standard deviation, because not every reader of ASCII files accepts "nan".
-PlyDocument WithDeviations(const FitFiles& files, const std::vector<double>& std_dev) {
+// Appends scalars of the vertices, in place of those of the same name. A row whose point was left
+// out, and a value that is not finite, is kUnknown, because not every reader of ASCII files accepts
+// "nan".
+void AddColumn(const std::string& name,
+               PlyType type,
+               const std::vector<int>& vertex_of_point,
+               const std::vector<double>& of_points,
+               PlyElement* vertices) {
   constexpr double kUnknown = -1.0;
-  PlyDocument document = files.source_document;
-  PlyElement* const vertices = document.Find("vertex");
   std::vector<double> values(vertices->count, kUnknown);
-  for (std::size_t i = 0; i < std_dev.size(); ++i) {
-    if (std::isfinite(std_dev[i])) values[files.vertex_of_point[i]] = std_dev[i];
+  for (std::size_t i = 0; i < of_points.size(); ++i) {
+    if (std::isfinite(of_points[i])) values[vertex_of_point[i]] = of_points[i];
   }
-  PlyProperty property = MakePlyScalar("std_dev", PlyType::kFloat32, std::move(values));
-  if (PlyProperty* const there = vertices->Find("std_dev"); there != nullptr) {
+  PlyProperty property = MakePlyScalar(name, type, std::move(values));
+  if (PlyProperty* const there = vertices->Find(name); there != nullptr) {
     *there = std::move(property);
   } else {
     vertices->properties.push_back(std::move(property));
   }
+}
+
+// Returns the document of the source with a property std_dev.
+PlyDocument WithDeviations(const FitFiles& files, const FitUncertainty& uncertainty) {
+  PlyDocument document = files.source_document;
+  AddColumn("std_dev",
+            PlyType::kFloat32,
+            files.vertex_of_point,
+            uncertainty.StandardDeviations(),
+            document.Find("vertex"));
   return document;
+}
+
+// Writes the vertices of the result with their covariances.
+Status WriteCovariances(const std::string& path, const FitFiles& files, const FitResult& result) {
+  constexpr std::array<const char*, 6> kNames = {"xx", "xy", "xz", "yy", "yz", "zz"};
+  constexpr std::array<std::array<int, 2>, 6> kEntries = {
+      {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}}};
+  const PlyElement& vertices = *files.source_document.Find("vertex");
+  PlyDocument document;
+  std::ostringstream scale;
+  scale << "Covariances of x y z in the squared unit of the file, and std_dev, the root of their "
+           "trace; -1 0 0 -1 0 -1 and -1 where nothing is known. They were multiplied by "
+        << FitUncertainty::kScale << ", which was fitted to known errors.";
+  document.comments = {scale.str()};
+  PlyElement rows;
+  rows.name = "vertex";
+  rows.count = vertices.count;
+  for (const char* const name : {"x", "y", "z"}) {
+    rows.properties.push_back(*vertices.Find(name));
+    rows.properties.back().type = PlyType::kFloat64;
+  }
+  const std::vector<Eigen::Matrix3d>& covariances = result.uncertainty.covariances;
+  std::vector<double> values(covariances.size());
+  for (std::size_t entry = 0; entry < kNames.size(); ++entry) {
+    const auto [row, column] = kEntries[entry];
+    for (std::size_t p = 0; p < covariances.size(); ++p) values[p] = covariances[p](row, column);
+    AddColumn(kNames[entry], PlyType::kFloat64, files.vertex_of_point, values, &rows);
+  }
+  AddColumn("std_dev",
+            PlyType::kFloat64,
+            files.vertex_of_point,
+            result.uncertainty.StandardDeviations(),
+            &rows);
+  document.elements.push_back(std::move(rows));
+  return SaveCloud(path, document, files.vertex_of_point, result.points, nullptr);
 }
 
 }  // namespace
@@ -142,8 +192,11 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
 }
 
 Status PrepareOutputs(const FitSettings& settings) {
-  for (const std::string* path :
-       {&settings.output, &settings.warp, &settings.graph, &settings.report}) {
+  for (const std::string* path : {&settings.output,
+                                  &settings.warp,
+                                  &settings.graph,
+                                  &settings.report,
+                                  &settings.covariance}) {
     if (path->empty()) continue;
     if (Status status = PrepareOutput(*path); !status.ok()) return status;
   }
@@ -151,13 +204,16 @@ Status PrepareOutputs(const FitSettings& settings) {
 }
 
 Status WriteFitFiles(const FitSettings& settings, const FitFiles& files, const FitResult& result) {
-  const bool has_deviations = !result.uncertainty.std_dev.empty();
-  Status status = SaveCloud(
-      settings.output,
-      has_deviations ? WithDeviations(files, result.uncertainty.std_dev) : files.source_document,
-      files.vertex_of_point,
-      result.points,
-      result.normals.empty() ? nullptr : &result.normals);
+  const bool has_covariances = !result.uncertainty.covariances.empty();
+  Status status =
+      SaveCloud(settings.output,
+                has_covariances ? WithDeviations(files, result.uncertainty) : files.source_document,
+                files.vertex_of_point,
+                result.points,
+                result.normals.empty() ? nullptr : &result.normals);
+  if (status.ok() && has_covariances && !settings.covariance.empty()) {
+    status = WriteCovariances(settings.covariance, files, result);
+  }
   if (status.ok() && !settings.warp.empty()) status = WriteWarp(settings.warp, result.warp);
   if (!status.ok() || settings.graph.empty()) return status;
   GraphWriteOptions options;

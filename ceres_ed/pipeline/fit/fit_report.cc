@@ -45,9 +45,9 @@ ordered_json EnergyReport(const FitResult& result) {
 
 // Returns null if the covariance was not requested or could not be computed.
 ordered_json CovarianceReport(const FitUncertainty& uncertainty) {
-  if (uncertainty.std_dev.empty()) return nullptr;
+  if (uncertainty.covariances.empty()) return nullptr;
   std::vector<double> known;
-  for (const double deviation : uncertainty.std_dev) {
+  for (const double deviation : uncertainty.StandardDeviations()) {
     if (std::isfinite(deviation)) known.push_back(deviation);
   }
   ordered_json report = ordered_json::object();
@@ -63,9 +63,9 @@ ordered_json CovarianceReport(const FitUncertainty& uncertainty) {
               {"p95", quantile(0.95)},
               {"max", known.back()}};
   }
-  report["undetermined_points"] = uncertainty.std_dev.size() - known.size();
+  report["undetermined_points"] = uncertainty.covariances.size() - known.size();
   report["undetermined_nodes"] = uncertainty.undetermined_nodes;
-  report["variance_factor"] = uncertainty.variance_factor;
+  report["scale"] = FitUncertainty::kScale;
   report["time_s"] = uncertainty.time;
   return report;
 }

@@ -37,6 +37,7 @@ struct FitSettings {
   std::string warp;
   std::string graph;
   std::string report;
+  std::string covariance;
   FailIf fail_if = FailIf::kNever;
   // The flags of the program, for the report.
   RunFlags flags;

@@ -2,7 +2,6 @@
 
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/linear_algebra/regularized_inverse.h>
-#include <ceres_ed/solver/normal_equations/loss_correction.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 
 #include <algorithm>
@@ -17,7 +16,6 @@ namespace ceres_ed {
 namespace {
 
 constexpr int kCameraSize = 6;
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 // Returns the pairs of blocks to which a common point is bound.
 std::vector<BlockPair> PairsOf(const Skinning& skinning, const std::vector<int>& block_of_node) {
@@ -196,6 +194,26 @@ Eigen::MatrixXd StateCovariance::Node(int node) const {
   return impl_->Propagate(parts, kNodeSize);
 }
 
+Eigen::VectorXd StateCovariance::SolveNodes(const Eigen::VectorXd& force) const {
+  const BlockStructure& structure = impl_->inverse->structure();
+  Eigen::VectorXd rhs = Eigen::VectorXd::Zero(structure.num_rows());
+  const int num_nodes = impl_->graph.num_nodes();
+  for (int j = 0; j < num_nodes; ++j) {
+    const int block = impl_->block_of_node[j];
+    if (block < 0) continue;
+    rhs.segment<kNodeSize>(structure.row_offset(block)) = force.segment<kNodeSize>(kNodeSize * j);
+  }
+  const Eigen::VectorXd solved = impl_->inverse->Solve(rhs);
+  Eigen::VectorXd change = Eigen::VectorXd::Zero(force.size());
+  for (int j = 0; j < num_nodes; ++j) {
+    const int block = impl_->block_of_node[j];
+    if (block < 0) continue;
+    change.segment<kNodeSize>(kNodeSize * j) =
+        solved.segment<kNodeSize>(structure.row_offset(block));
+  }
+  return change;
+}
+
 Eigen::MatrixXd StateCovariance::Camera() const {
   std::vector<BlockDerivative> parts;
   if (impl_->camera_block >= 0) {
@@ -221,58 +239,6 @@ Eigen::Matrix3d StateCovariance::PointInCamera(const Eigen::Vector3d& position,
     parts.push_back({impl_->camera_block, CameraDerivative(pose.rotation * warped)});
   }
   return impl_->Propagate(parts, 3);
-}
-
-bool StateCovariance::Residual(const SelectedResidual& residual,
-                               const LossSpec& loss,
-                               Eigen::MatrixXd* covariance) const {
-  const std::shared_ptr<const ceres::CostFunction> cost = residual.CostFunction(impl_->graph);
-  const int rows = cost->num_residuals();
-  std::vector<const double*> blocks;
-  std::vector<RowMajor> jacobians;
-  std::vector<double*> jacobian_pointers;
-  blocks.reserve(residual.num_blocks);
-  jacobians.reserve(residual.num_blocks);
-  jacobian_pointers.reserve(residual.num_blocks);
-  for (int i = 0; i < residual.num_blocks; ++i) {
-    blocks.push_back(BlockPointer(impl_->state, residual.blocks[i]));
-    jacobians.emplace_back(rows, cost->parameter_block_sizes()[i]);
-  }
-  for (RowMajor& jacobian : jacobians) jacobian_pointers.push_back(jacobian.data());
-  Eigen::VectorXd r(rows);
-  if (!cost->Evaluate(blocks.data(), r.data(), jacobian_pointers.data())) return false;
-  double rho[3] = {r.squaredNorm(), 1.0, 0.0};
-  if (const auto function = MakeLoss(loss); function != nullptr) {
-    function->Evaluate(r.squaredNorm(), rho);
-  }
-  for (double& value : rho) value *= residual.weight;
-  const LossCorrection correction(r.squaredNorm(), rho);
-
-  std::vector<BlockDerivative> parts;
-  Eigen::MatrixXd by_camera = Eigen::MatrixXd::Zero(rows, kCameraSize);
-  bool sees_camera = false;
-  for (int i = 0; i < residual.num_blocks; ++i) {
-    RowMajor& J = jacobians[i];
-    correction.CorrectJacobian(r.data(), rows, static_cast<int>(J.cols()), J.data());
-    const BlockRef& ref = residual.blocks[i];
-    if (ref.kind == BlockRef::Kind::kNode) {
-      const int block = impl_->block_of_node[ref.node];
-      if (block >= 0) parts.push_back({block, J});
-    } else if (ref.kind == BlockRef::Kind::kCameraRotation) {
-      RowMajor plus(kRotationSize, 3);
-      ceres::EigenQuaternionManifold().PlusJacobian(blocks[i], plus.data());
-      by_camera.leftCols<3>() = J * plus;
-      sees_camera = true;
-    } else {
-      by_camera.rightCols<3>() = J;
-      sees_camera = true;
-    }
-  }
-  if (sees_camera && impl_->camera_block >= 0) parts.push_back({impl_->camera_block, by_camera});
-  covariance->setZero(rows, rows);
-  // The residual does not depend on parameters whose entries are missing.
-  if (!parts.empty()) impl_->inverse->PropagateSelected(parts, covariance);
-  return true;
 }
 
 }  // namespace ceres_ed

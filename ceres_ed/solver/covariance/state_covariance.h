@@ -44,8 +44,7 @@ enum class ParameterStatus {
 //
 // It is the covariance of the state under two assumptions: every weighted residual, also of priors,
 // has variance 1 and is independent of the others; and the problem is linear around the state over
-// the range of the deviations. If the weights are correct up to a common factor, multiply the
-// covariance by an estimate of the variance factor (solver/covariance/variance_factor.h).
+// the range of the deviations.
 class StateCovariance {
  public:
   // Returns the covariance for the problem of `config` at `state`, which should be a minimum of the
@@ -86,13 +85,10 @@ class StateCovariance {
   // camera.
   Eigen::Matrix3d PointInCamera(const Eigen::Vector3d& position, const Binding& binding) const;
 
-  // Computes J (J^T J)^-1 J^T of one residual with its weight in the problem at this state. This is
-  // the covariance of the prediction of the state for the residual, and its trace is the number of
-  // parameters that the residual determines. Held blocks contribute nothing. Returns false if the
-  // cost function fails.
-  bool Residual(const SelectedResidual& residual,
-                const LossSpec& loss,
-                Eigen::MatrixXd* covariance) const;
+  // Returns the changes of all nodes, 12 for each, that `force` (12 values for each node, those of a
+  // gradient) causes: (J^T J)^-1 force. They are zero for nodes that are not variable. Unlike the
+  // functions above, it gives undetermined nodes what a tiny regulariser lets them do.
+  Eigen::VectorXd SolveNodes(const Eigen::VectorXd& force) const;
 
  private:
   struct Impl;

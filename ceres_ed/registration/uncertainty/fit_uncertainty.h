@@ -1,6 +1,6 @@
 // Computes how well the result of a fit is determined.
-#ifndef CERES_ED_REGISTRATION_FIT_UNCERTAINTY_H_
-#define CERES_ED_REGISTRATION_FIT_UNCERTAINTY_H_
+#ifndef CERES_ED_REGISTRATION_UNCERTAINTY_FIT_UNCERTAINTY_H_
+#define CERES_ED_REGISTRATION_UNCERTAINTY_FIT_UNCERTAINTY_H_
 
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/registration/fit_problem.h>
@@ -13,11 +13,12 @@
 namespace ceres_ed {
 
 // Fills in `result->uncertainty` for `problem` at `state`, the end of its last round. Lengths are
-// in the unit frame. If something is missing, a warning says so.
+// in the unit frame. If something is missing, a warning says so. Changes the weights of the
+// problem, which must not be solved any more.
 void MeasureUncertainty(const UnitFit& fit,
                         const BuiltGraph& graph,
-                        const FitProblem& problem,
                         const DeformationState& state,
+                        FitProblem* problem,
                         FitResult* result);
 
 // Discards the uncertainty of `result`, and adds a warning with the reason `why`.
@@ -25,4 +26,4 @@ void DropUncertainty(const std::string& why, FitResult* result);
 
 }  // namespace ceres_ed
 
-#endif  // CERES_ED_REGISTRATION_FIT_UNCERTAINTY_H_
+#endif  // CERES_ED_REGISTRATION_UNCERTAINTY_FIT_UNCERTAINTY_H_
