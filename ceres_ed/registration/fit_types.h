@@ -71,7 +71,7 @@ struct FitTimes {
 // against a common motion. Wrong matches are not.
 struct FitUncertainty {
   // k, without unit.
-  static constexpr double kScale = 1.0;
+  static constexpr double kScale = 2.6;
 
   // Cov(p) of each source point in the frame of the target, in its squared unit; NaN if a node to
   // which the point is bound is undetermined. Empty if it was not requested or cannot be computed;
