@@ -52,7 +52,7 @@ double MotionFromGiven(const UnitFit& fit) {
 }
 
 // A surface of which less than this is left has all its limbs in their places.
-constexpr double kWhole = 0.02;
+constexpr double kWhole = 0.05;
 // The first stiffness of a source that is bent already lies this part of the way to the last one.
 constexpr double kBentShare = 0.8;
 // The angle of the strict manner, as a part of that of the careful one.
