@@ -53,8 +53,8 @@ class RegularizedInverse {
   // Returns H^-1 `rhs`, with the same treatment of undetermined blocks.
   Eigen::VectorXd Solve(const Eigen::VectorXd& rhs) const;
 
-  // Computes Propagate() without solves. If parts of Z are missing, they count as zero, and it returns
-  // false.
+  // Computes Propagate() without solves. If parts of Z are missing, they count as zero, and it
+  // returns false.
   bool PropagateSelected(const std::vector<BlockDerivative>& parts, Eigen::MatrixXd* result) const;
 
  private:

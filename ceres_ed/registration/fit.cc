@@ -410,8 +410,8 @@ StatusOr<FitResult> Fitter::Run() {
   Report("graph", 0.0);
   CoarseToFine coarse_to_fine(fit);
   if (Status status = coarse_to_fine.Run(&result_); !status.ok()) return status;
-  if (options_.covariance && (result_.status == SolveStatus::kTimeLimit ||
-                              result_.status == SolveStatus::kInterrupted)) {
+  if (options_.covariance &&
+      (result_.status == SolveStatus::kTimeLimit || result_.status == SolveStatus::kInterrupted)) {
     DropUncertainty("the fit ended early", &result_);
   }
   // 3. The warp in the source frame, and the finish of every vertex.

@@ -12,9 +12,8 @@ namespace ceres_ed {
 // A grid of cubes around points. Each cube stores the point that is nearest to its centre.
 class NearestGrid {
  public:
-  // `points` must not be empty. `cell` >= 0 is the edge of the cubes; it is larger if there would be
-  // too many cubes. Cubes that
-  // have no point within `reach` >= 0 of their centre are empty.
+  // `points` must not be empty. `cell` >= 0 is the edge of the cubes; it is larger if there would
+  // be too many cubes. Cubes that have no point within `reach` >= 0 of their centre are empty.
   NearestGrid(const std::vector<Eigen::Vector3d>& points, double cell, double reach);
 
   // Returns the index of the point that is nearest to the centre of the cube that contains `query`;

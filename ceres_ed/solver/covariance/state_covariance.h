@@ -85,8 +85,8 @@ class StateCovariance {
   // camera.
   Eigen::Matrix3d PointInCamera(const Eigen::Vector3d& position, const Binding& binding) const;
 
-  // Returns the changes of all nodes, 12 for each, that `force` (12 values for each node, those of a
-  // gradient) causes: (J^T J)^-1 force. They are zero for nodes that are not variable. Unlike the
+  // Returns the changes of all nodes, 12 for each, that `force` (12 values for each node, those of
+  // a gradient) causes: (J^T J)^-1 force. They are zero for nodes that are not variable. Unlike the
   // functions above, it gives undetermined nodes what a tiny regulariser lets them do.
   Eigen::VectorXd SolveNodes(const Eigen::VectorXd& force) const;
 
