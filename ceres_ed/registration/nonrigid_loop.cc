@@ -10,7 +10,7 @@
 namespace ceres_ed {
 namespace {
 
-constexpr int kPatientIterations = 3;
+constexpr int kPatientIterations = 12;
 // The unit of the noise is a hundredth of the source's diagonal.
 constexpr double kPerLength = 100.0;
 // All steps before the last one match 1 / kShareOfSteps of the samples, and all resolutions before
