@@ -26,8 +26,8 @@ constexpr double kInnerReach = 1.25;
 constexpr double kFacingReach = 2.0;
 // The weight of an edge between nodes that face each other.
 constexpr double kFacingWeight = 1.0;
-// Two nodes face each other if the angle between the line that joins them and the inner normal is
-// less than 60 degrees at both.
+// Two nodes face each other if the angle between the line that joins them and the normal is less
+// than 60 degrees at both, and the normals point to opposite sides.
 constexpr double kMinFacingCosine = 0.5;
 // The largest square of the length of all borders of a closed surface, as a part of its area.
 constexpr double kMaxBorder = 0.05;
@@ -102,10 +102,13 @@ class BodyEdges {
     return inside_.IsSegmentInside(positions_[node], positions_[other]);
   }
 
-  // Returns whether two nodes of the surface look at each other through the body.
+  // Returns whether two nodes of the surface look at each other, through the body or around it. The
+  // surface may be wound inside out.
   bool Face(int a, int b) const {
     const Eigen::Vector3d line = (positions_[b] - positions_[a]).normalized();
-    return -normals_[a].dot(line) >= kMinFacingCosine && normals_[b].dot(line) >= kMinFacingCosine;
+    const double at_a = normals_[a].dot(line);
+    const double at_b = normals_[b].dot(line);
+    return at_a * at_b < 0.0 && std::min(std::abs(at_a), std::abs(at_b)) >= kMinFacingCosine;
   }
 
   const InsideGrid& inside_;
