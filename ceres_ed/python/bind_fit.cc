@@ -241,6 +241,11 @@ void BindNumbers(ResultClass* result) {
       "terms",
       &Terms,
       "The parts of final_energy, a dict for each energy: name, weighted, raw, residuals.");
+}
+
+// How the fit went, and what it found out.
+void BindCourse(ResultClass* result) {
+  using R = FitResult;
   AddNumber(
       result,
       "outer_iterations",
@@ -309,6 +314,7 @@ void BindFit(py::module_& module) {
 Arrays of points are views of the result's own memory and keep it alive.)");
   BindArrays(&result);
   BindNumbers(&result);
+  BindCourse(&result);
   module.def("fit",
              &FitSurfaces,
              py::arg("source"),
