@@ -4,15 +4,24 @@
 
 namespace ceres_ed {
 
-std::vector<Finding> InspectCloud(const Specimen& specimen) {
+std::vector<Finding> InspectCloud(const Specimen& specimen,
+                                  const std::function<bool()>& should_stop) {
   std::vector<Finding> findings;
-  for (const CloudCheck check : kCloudChecks) check(specimen, &findings);
+  for (const CloudCheck check : kCloudChecks) {
+    if (should_stop && should_stop()) break;
+    check(specimen, &findings);
+  }
   return findings;
 }
 
-std::vector<Finding> InspectPair(const Specimen& source, const Specimen& target) {
+std::vector<Finding> InspectPair(const Specimen& source,
+                                 const Specimen& target,
+                                 const std::function<bool()>& should_stop) {
   std::vector<Finding> findings;
-  for (const PairCheck check : kPairChecks) check(source, target, &findings);
+  for (const PairCheck check : kPairChecks) {
+    if (should_stop && should_stop()) break;
+    check(source, target, &findings);
+  }
   return findings;
 }
 

@@ -57,6 +57,24 @@ TEST_F(EdFitStopTest, TimeLimitWritesTheBestSoFar) {
   }
 }
 
+// Reading a large mesh may take longer than the limit; the checks of it are then left out.
+TEST_F(EdFitStopTest, NoInputIsCheckedAfterTheTimeLimit) {
+  RingOptions ring;
+  ring.more_faces = {"3 0 1 25", "3 0 1 25"};
+  WriteBytes(dir_ / "twice.ply", RingPly(ring));
+  const auto checks = [this](const std::vector<std::string>& flags) {
+    std::vector<std::string> arguments = {dir_ / "twice.ply",
+                                          dir_ / "twice.ply",
+                                          "--output=" + (dir_ / "out.ply"),
+                                          "--report=" + (dir_ / "report.json")};
+    arguments.insert(arguments.end(), flags.begin(), flags.end());
+    RunProgramFile(AppPath("ed_fit"), arguments, {});
+    return Report()["checks"].size();
+  };
+  EXPECT_GT(checks({}), 0u);
+  EXPECT_EQ(checks({"--time_limit_s=1e-6"}), 0u);
+}
+
 TEST_F(EdFitStopTest, AKilledRunLeavesTheOldFileOrTheNewOne) {
   ASSERT_EQ(FitPair({"--warp=" + (dir_ / "warp.json")}).exit_code, 0);
   const std::string new_cloud = ReadBytes(dir_ / "out.ply");

@@ -4,6 +4,7 @@
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/simulation/shapes.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -108,6 +109,36 @@ TEST(Preflight, FindsEachFaultOfOneCloud) {
     const std::vector<std::string> codes = CodesOf(Changed(c.change));
     EXPECT_THAT(codes, ::testing::Contains(c.code));
   }
+}
+
+TEST(Preflight, LeavesOutTheChecksAfterAStop) {
+  const PointCloud cloud = Changed([](PointCloud* body) {
+    body->points.emplace_back(500.0, 0.0, 0.0);
+    body->triangles.push_back(body->triangles[3]);
+  });
+  const SurfaceTopology topology = BuildTopology(cloud);
+  const Specimen specimen = {"it", &cloud, &topology, false};
+  int polls = 0;
+  const std::vector<Finding> all = InspectCloud(specimen, [&polls] {
+    ++polls;
+    return false;
+  });
+  const std::vector<std::string> codes = CodesOf(all);
+  EXPECT_THAT(codes, ::testing::Contains("far_vertices"));
+  EXPECT_THAT(codes, ::testing::Contains("duplicate_faces"));
+  // A stop before each check in turn leaves the findings of those before it.
+  for (int last = 0; last < polls; ++last) {
+    int asked = 0;
+    const std::vector<std::string> some =
+        CodesOf(InspectCloud(specimen, [&] { return asked++ == last; }));
+    ASSERT_LE(some.size(), codes.size());
+    EXPECT_TRUE(std::equal(some.begin(), some.end(), codes.begin()));
+    EXPECT_EQ(asked, last + 1);
+    if (last == 0) {
+      EXPECT_THAT(some, IsEmpty());
+    }
+  }
+  EXPECT_THAT(InspectPair(specimen, specimen, [] { return true; }), IsEmpty());
 }
 
 TEST(Preflight, CountsTheEdgesOfMoreThanTwoTriangles) {

@@ -19,15 +19,18 @@ Specimen MakeSpecimen(const CheckedFile& file, const SurfaceTopology& topology) 
 
 }  // namespace
 
-std::vector<Finding> CheckFiles(const CheckedFile& source, const CheckedFile& target) {
-  if (source.cloud->empty()) return {};
+std::vector<Finding> CheckFiles(const CheckedFile& source,
+                                const CheckedFile& target,
+                                const std::function<bool()>& should_stop) {
+  const auto stopped = [&should_stop] { return should_stop && should_stop(); };
+  if (source.cloud->empty() || stopped()) return {};
   const SurfaceTopology source_topology = BuildTopology(*source.cloud);
   const Specimen from = MakeSpecimen(source, source_topology);
-  std::vector<Finding> findings = InspectCloud(from);
-  if (target.path.empty() || target.cloud->empty()) return findings;
+  std::vector<Finding> findings = InspectCloud(from, should_stop);
+  if (target.path.empty() || target.cloud->empty() || stopped()) return findings;
   const SurfaceTopology target_topology = BuildTopology(*target.cloud);
   const Specimen to = MakeSpecimen(target, target_topology);
-  for (const auto& more : {InspectCloud(to), InspectPair(from, to)}) {
+  for (const auto& more : {InspectCloud(to, should_stop), InspectPair(from, to, should_stop)}) {
     findings.insert(findings.end(), more.begin(), more.end());
   }
   return findings;

@@ -6,6 +6,7 @@
 #include <ceres_ed/io/mesh/ply_document.h>
 #include <ceres_ed/preflight/finding.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -21,8 +22,10 @@ struct CheckedFile {
 };
 
 // Returns the findings about the source, about the target (whose path is empty if there is none),
-// and about both.
-std::vector<Finding> CheckFiles(const CheckedFile& source, const CheckedFile& target);
+// and about both. If `should_stop` returns true, the checks that are left are not made.
+std::vector<Finding> CheckFiles(const CheckedFile& source,
+                                const CheckedFile& target,
+                                const std::function<bool()>& should_stop = {});
 
 // Returns the findings as report.json has them.
 nlohmann::ordered_json ChecksReport(const std::vector<Finding>& findings);

@@ -158,7 +158,8 @@ Status WriteCovariances(const std::string& path, const FitFiles& files, const Fi
 
 }  // namespace
 
-StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
+StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
+                                const std::function<bool()>& should_stop) {
   FitFiles files;
   StatusOr<LoadedCloud> source = LoadInput(settings.source, settings.repair);
   if (!source.ok()) return source.status();
@@ -177,7 +178,8 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings) {
     target_document = std::move(target->document);
   }
   files.checks = CheckFiles({settings.source, &files.input.source, &files.source_document},
-                            {settings.target, &files.input.target, &target_document});
+                            {settings.target, &files.input.target, &target_document},
+                            should_stop);
   if (!settings.landmarks.empty()) {
     if (Status status = LoadLandmarks(settings.landmarks, &files); !status.ok()) return status;
   }

@@ -8,6 +8,7 @@
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/status.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,8 +41,10 @@ struct FitFiles {
   std::vector<Finding> checks;
 };
 
-// Returns the inputs. Errors name the file, the place, the value and what was expected.
-StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings);
+// Returns the inputs. Errors name the file, the place, the value and what was expected. Files are
+// always read to their end; if `should_stop` returns true, the checks that are left are not made.
+StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
+                                const std::function<bool()>& should_stop);
 
 // Returns ok if every output can be written. This is checked before the long computation. Creates
 // the folders of the outputs if they do not exist.

@@ -110,7 +110,9 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
   if (!scale.ok()) return Outcome::Usage(scale.status().message());
 
   // Read and fit.
-  StatusOr<FitFiles> files = LoadFitFiles(settings);
+  StatusOr<FitFiles> files = LoadFitFiles(settings, [&] {
+    return observer->ShouldStop() || clock.Seconds() >= settings.options.time_limit_s;
+  });
   if (!files.ok()) return Outcome::BadInput(files.status());
   FitOptions options = settings.options;
   if (!settings.scale.empty()) {
