@@ -1,4 +1,6 @@
 #include <ceres_ed/geometry/closest_point.h>
+#include <ceres_ed/geometry/welded_mesh.h>
+#include <ceres_ed/registration/finish/finish_matching.h>
 #include <ceres_ed/registration/finish/vertex_finish.h>
 #include <ceres_ed/simulation/shapes.h>
 #include <ceres_ed/simulation/views.h>
@@ -55,6 +57,32 @@ TEST(FinishVertices, BringsASurfaceOntoItsTarget) {
   const double before = MeanDistance(source.cloud().points, target);
   EXPECT_GT(before, 2e-3);
   EXPECT_LT(MeanDistance(result.points, target), 0.1 * before);
+}
+
+TEST(FinishVertices, MatchesNothingAfterAStop) {
+  const Surface source(MakeBody(5000));
+  const Surface target(MakeBody(6000));
+  const WeldedMesh mesh = BuildWeldedMesh(source.cloud(), source.topology());
+  std::vector<Eigen::Vector3d> points;
+  for (const int point : mesh.point_of_vertex) points.push_back(source.cloud().points[point]);
+  const FinishInput input = InputOf(source, target);
+  FinishMatcher matcher(source, mesh, source.cloud().normals, target, input.matching);
+  int polls = 0;
+  EXPECT_FALSE(matcher
+                   .Match(points,
+                          3.0,
+                          [&polls] {
+                            ++polls;
+                            return false;
+                          })
+                   .empty());
+  // Each direction asks at its begin and on its way.
+  EXPECT_GE(polls, 4);
+  for (int last = 0; last < polls; ++last) {
+    int asked = 0;
+    EXPECT_TRUE(matcher.Match(points, 3.0, [&] { return asked++ == last; }).empty());
+    EXPECT_EQ(asked, last + 1);
+  }
 }
 
 TEST(FinishVertices, BringsBarePointsOntoTheirTarget) {

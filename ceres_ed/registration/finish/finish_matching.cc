@@ -12,6 +12,12 @@ namespace {
 
 // Target samples per vertex; more of them would add no information.
 constexpr int kSamplesPerVertex = 2;
+// The number of matches between two questions whether to stop.
+constexpr std::size_t kMatchesPerPoll = 4096;
+
+bool MustStopAt(std::size_t match, const std::function<bool()>& should_stop) {
+  return match % kMatchesPerPoll == 0 && should_stop && should_stop();
+}
 
 // Returns the offset, at the point `blend` of a triangle, from the triangle to the curved surface
 // that it approximates. It is computed from the normals of the corners to second order (half of the
@@ -57,11 +63,13 @@ Eigen::Vector3d FinishMatcher::Between(const Eigen::Vector3d& moving,
   return (sign * moving + still).normalized();
 }
 
-void FinishMatcher::MatchForward(const std::vector<Eigen::Vector3d>& points,
+bool FinishMatcher::MatchForward(const std::vector<Eigen::Vector3d>& points,
                                  const std::vector<Eigen::Vector3d>& normals,
+                                 const std::function<bool()>& should_stop,
                                  std::vector<Candidate>* candidates) {
   const SurfaceIndex& index = target_.index();
   for (int v = 0; v < mesh_.num_vertices(); ++v) {
+    if (MustStopAt(v, should_stop)) return false;
     if (!mesh_.triangles.empty() && mesh_.around_offsets[v] == mesh_.around_offsets[v + 1]) {
       continue;
     }
@@ -83,10 +91,12 @@ void FinishMatcher::MatchForward(const std::vector<Eigen::Vector3d>& points,
     candidate.plane = std::abs(candidate.pair.normal.dot(points[v] - candidate.pair.target));
     candidates->push_back(candidate);
   }
+  return true;
 }
 
-void FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
+bool FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
                                   const std::vector<Eigen::Vector3d>& normals,
+                                  const std::function<bool()>& should_stop,
                                   std::vector<Candidate>* candidates) {
   if (tree_ != nullptr) {
     tree_->Update();
@@ -94,6 +104,7 @@ void FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
     tree_ = std::make_unique<KdTree>(points);
   }
   for (std::size_t i = 0; i < target_samples_.size(); ++i) {
+    if (MustStopAt(i, should_stop)) return false;
     const int sample = target_samples_[i];
     const Eigen::Vector3d& position = target_.cloud().points[sample];
     const Neighbor nearest =
@@ -129,17 +140,19 @@ void FinishMatcher::MatchBackward(const std::vector<Eigen::Vector3d>& points,
     candidate.plane = std::abs(pair.normal.dot(closest - pair.target));
     candidates->push_back(candidate);
   }
+  return true;
 }
 
 std::vector<FinishPair> FinishMatcher::Match(const std::vector<Eigen::Vector3d>& points,
-                                             double loss_width) {
+                                             double loss_width,
+                                             const std::function<bool()>& should_stop) {
   const std::vector<Eigen::Vector3d> normals =
       mesh_.triangles.empty() ? fallback_normals_ : WeldedNormals(mesh_, points);
   std::vector<Candidate> candidates;
   candidates.reserve(points.size() + target_samples_.size());
-  MatchForward(points, normals, &candidates);
+  if (!MatchForward(points, normals, should_stop, &candidates)) return {};
   const std::size_t forward = candidates.size();
-  MatchBackward(points, normals, &candidates);
+  if (!MatchBackward(points, normals, should_stop, &candidates)) return {};
 
   std::vector<double> distances;
   std::vector<double> planes;

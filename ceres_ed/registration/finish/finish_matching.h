@@ -8,6 +8,7 @@
 #include <ceres_ed/registration/matching.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -44,7 +45,10 @@ class FinishMatcher {
   // corners. The weights are those of a Welsch loss whose width is `loss_width` robust standard
   // deviations of the distances across the surface. They sum to at most the number of vertices,
   // half of it for each direction. `points` must be the same vector at each call.
-  std::vector<FinishPair> Match(const std::vector<Eigen::Vector3d>& points, double loss_width);
+  // `should_stop` is called often; if it returns true, there are no pairs.
+  std::vector<FinishPair> Match(const std::vector<Eigen::Vector3d>& points,
+                                double loss_width,
+                                const std::function<bool()>& should_stop = {});
 
   // Returns 1.4826 times the median distance across the surface over the last pairs.
   double robust_plane_distance() const { return robust_plane_distance_; }
@@ -55,11 +59,14 @@ class FinishMatcher {
     double distance = 0.0;
     double plane = 0.0;
   };
-  void MatchForward(const std::vector<Eigen::Vector3d>& points,
+  // Both add the pairs of one direction to `candidates`, and return false if they were stopped.
+  bool MatchForward(const std::vector<Eigen::Vector3d>& points,
                     const std::vector<Eigen::Vector3d>& normals,
+                    const std::function<bool()>& should_stop,
                     std::vector<Candidate>* candidates);
-  void MatchBackward(const std::vector<Eigen::Vector3d>& points,
+  bool MatchBackward(const std::vector<Eigen::Vector3d>& points,
                      const std::vector<Eigen::Vector3d>& normals,
+                     const std::function<bool()>& should_stop,
                      std::vector<Candidate>* candidates);
   // Returns the mean direction of two normals, or zero if they disagree.
   Eigen::Vector3d Between(const Eigen::Vector3d& moving, const Eigen::Vector3d& still) const;

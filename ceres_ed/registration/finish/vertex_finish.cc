@@ -188,7 +188,9 @@ FinishResult Finisher::Run() {
   result_.points = *input_.points;
   FinishMatcher matcher(*input_.source, mesh_, normals_, *input_.target, input_.matching);
   for (int round = 0; round < options_.rounds; ++round) {
-    const std::vector<FinishPair> pairs = matcher.Match(points_, options_.loss_width);
+    const std::vector<FinishPair> pairs =
+        matcher.Match(points_, options_.loss_width, [this] { return Stopped(); });
+    if (stopped_) return std::move(result_);
     if (round == 0) {
       result_.smoothing = Smoothing(matcher);
       if (pairs.empty() || result_.smoothing > options_.max_smoothing) return std::move(result_);
