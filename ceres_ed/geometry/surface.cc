@@ -51,16 +51,21 @@ std::vector<double> Radii(const PointCloud& cloud) {
 
 Surface::Surface(PointCloud cloud, int num_threads)
     : cloud_(WithNormals(std::move(cloud), num_threads)),
-      topology_(BuildTopology(cloud_)),
+      num_threads_(num_threads),
       relative_areas_(RelativeAreas(cloud_)),
-      radii_(Radii(cloud_)) {
-  if (!cloud_.HasTriangles()) {
-    topology_.is_border = FindBorderPoints(cloud_.points, cloud_.normals, num_threads);
-  }
+      radii_(Radii(cloud_)) {}
+
+const SurfaceTopology& Surface::topology() const {
+  std::call_once(topology_built_, [this] {
+    topology_ = BuildTopology(cloud_);
+    if (cloud_.HasTriangles()) return;
+    topology_.is_border = FindBorderPoints(cloud_.points, cloud_.normals, num_threads_);
+  });
+  return topology_;
 }
 
 const SurfaceIndex& Surface::index() const {
-  std::call_once(index_built_, [this] { index_.emplace(cloud_, topology_); });
+  std::call_once(index_built_, [this] { index_.emplace(cloud_, topology()); });
   return *index_;
 }
 

@@ -20,14 +20,15 @@ namespace ceres_ed {
 // can't be copied or moved, since the index refers to the cloud.
 class Surface {
  public:
-  // Computes normals if the cloud has none. `cloud` must not be empty.
+  // Computes normals if the cloud has none. `cloud` must not be empty, and its triangles must name
+  // its points.
   explicit Surface(PointCloud cloud, int num_threads = 1);
   Surface(const Surface&) = delete;
   Surface& operator=(const Surface&) = delete;
 
   const PointCloud& cloud() const { return cloud_; }
-  // For bare points, is_border has the points of FindBorderPoints().
-  const SurfaceTopology& topology() const { return topology_; }
+  // For bare points, is_border has the points of FindBorderPoints(). It is built at the first call.
+  const SurfaceTopology& topology() const;
   // The index for the closest point of the surface, which may lie between its points. It is built
   // at the first call.
   const SurfaceIndex& index() const;
@@ -53,10 +54,12 @@ class Surface {
 
  private:
   PointCloud cloud_;
-  SurfaceTopology topology_;
+  int num_threads_;
+  mutable std::once_flag topology_built_;
   mutable std::once_flag index_built_;
   mutable std::once_flag tree_built_;
   mutable std::once_flag gradients_built_;
+  mutable SurfaceTopology topology_;
   mutable std::optional<SurfaceIndex> index_;
   mutable std::optional<KdTree> tree_;
   mutable std::vector<Eigen::Vector3d> intensity_gradients_;

@@ -79,7 +79,7 @@ StatusOr<BuiltGraph> GraphForNoTime(const Surface& source) {
   GraphOptions options;
   options.distance = DistanceRule::kEuclidean;
   options.auto_spacing = 0.3;
-  return BuildGraph(source.cloud(), source.topology(), options);
+  return BuildGraph(source.cloud(), options);
 }
 
 // Links the pieces of the source that have no landmark to the pieces near them: landmarks on some
@@ -107,7 +107,9 @@ Status CoarseToFine::BuildGraphs(int resolutions, FitResult* result) {
   const Surface& source = *fit_.source;
   GraphOptions fine = fit_.options->graph;
   fine.should_stop = [this, result] { return MustEnd(fit_, result); };
-  StatusOr<BuiltGraph> finest = BuildGraph(source.cloud(), source.topology(), fine);
+  StatusOr<BuiltGraph> finest = MustEnd(fit_, result)
+                                    ? GraphForNoTime(source)
+                                    : BuildGraph(source.cloud(), source.topology(), fine);
   if (!finest.ok() && EndedEarlyBy(*result)) finest = GraphForNoTime(source);
   if (!finest.ok()) return finest.status();
   result->warnings.insert(result->warnings.end(), finest->warnings.begin(), finest->warnings.end());

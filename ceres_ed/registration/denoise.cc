@@ -47,7 +47,11 @@ void TakeSideOf(const std::vector<Eigen::Vector3d>& given, std::vector<Eigen::Ve
   for (Eigen::Vector3d& normal : *normals) normal = -normal;
 }
 
-Eigen::MatrixXd Smoothed(const WeldedMesh& mesh, const Eigen::MatrixXd& points, double length) {
+// Returns the smoothed points; none if `should_stop` has returned true.
+Eigen::MatrixXd Smoothed(const WeldedMesh& mesh,
+                         const Eigen::MatrixXd& points,
+                         double length,
+                         const std::function<bool()>& should_stop) {
   SparseCholesky::Matrix matrix = SquaredLaplacian(mesh);
   // An isolated vertex keeps its position.
   Eigen::VectorXd degrees = Eigen::VectorXd::Zero(mesh.num_vertices());
@@ -60,14 +64,22 @@ Eigen::MatrixXd Smoothed(const WeldedMesh& mesh, const Eigen::MatrixXd& points, 
   for (int v = 0; v < mesh.num_vertices(); ++v) {
     matrix.valuePtr()[matrix.outerIndexPtr()[v]] += hold[v];
   }
-  SparseCholesky factor(matrix);
-  CHECK(factor.Factorize(matrix)) << "a sum of squares and a positive diagonal";
+  bool stopped = false;
+  const auto must_stop = [&] {
+    stopped = stopped || (should_stop && should_stop());
+    return stopped;
+  };
+  SparseCholesky factor(matrix, must_stop);
+  if (!factor.Factorize(matrix, must_stop)) {
+    CHECK(stopped) << "a sum of squares and a positive diagonal";
+    return {};
+  }
   return factor.Solve(hold.asDiagonal() * points);
 }
 
 }  // namespace
 
-Denoised Denoise(const Surface& surface, double noise) {
+Denoised Denoise(const Surface& surface, double noise, const std::function<bool()>& should_stop) {
   Denoised denoised;
   denoised.noise = noise;
   const WeldedMesh mesh = BuildWeldedMesh(surface.cloud(), surface.topology());
@@ -75,14 +87,14 @@ Denoised Denoise(const Surface& surface, double noise) {
   if (!(noise > 0.0) || !(edge > 0.0)) return denoised;
   const double length = std::sqrt(kTurnPerSlope * noise / (kAcceptedTurn * edge));
   if (length < 1.0) return denoised;
-  denoised.length = length;
-  denoised.noise = kLeftOfNoise * noise / length;
-
   Eigen::MatrixXd points(mesh.num_vertices(), 3);
   for (int v = 0; v < mesh.num_vertices(); ++v) {
     points.row(v) = surface.cloud().points[mesh.point_of_vertex[v]].transpose();
   }
-  const Eigen::MatrixXd smoothed = Smoothed(mesh, points, length);
+  const Eigen::MatrixXd smoothed = Smoothed(mesh, points, length, should_stop);
+  if (smoothed.rows() != points.rows()) return denoised;
+  denoised.length = length;
+  denoised.noise = kLeftOfNoise * noise / length;
   PointCloud& cloud = denoised.cloud;
   cloud = surface.cloud();
   cloud.normals.clear();

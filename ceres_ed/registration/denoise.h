@@ -5,6 +5,8 @@
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/surface.h>
 
+#include <functional>
+
 namespace ceres_ed {
 
 // A surface whose noise has been smoothed.
@@ -26,8 +28,10 @@ struct Denoised {
 // and moves every point by the component of z - x along the normal of z. On a regular mesh with
 // edge h (without the noise) the remaining part of white noise is 0.465 sigma / l, and normals are
 // rotated by 0.742 sigma / (h l^2). Both hold to 7 % for l >= 2; at l = 1 the factors are 0.57 and
-// 0.52.
-Denoised Denoise(const Surface& surface, double noise);
+// 0.52. If `should_stop` returns true, nothing is smoothed.
+Denoised Denoise(const Surface& surface,
+                 double noise,
+                 const std::function<bool()>& should_stop = {});
 
 }  // namespace ceres_ed
 

@@ -121,16 +121,19 @@ class Fitter {
  private:
   // Places the source, and stores both surfaces in the unit frame.
   void Place();
-  // Stores the surfaces in the unit frame, with a denoised target.
+  // Stores the surfaces in the unit frame, with a denoised target. A fit that must stop has no use
+  // for the target.
   void TakeToUnitFrame(const PointCloud& source, const PointCloud* target);
   void Report(const char* stage, double part) const {
     if (options_.on_progress) options_.on_progress({stage, PartOfFit(stage, part), 0, 0.0, 0.0});
   }
-  bool MustStop() const {
-    return (options_.should_stop && options_.should_stop()) ||
-           clock_.Seconds() >= options_.time_limit_s;
+  // Returns whether the fit must end. Once it has returned true, it always does.
+  bool MustStop() {
+    is_interrupted_ = is_interrupted_ || (options_.should_stop && options_.should_stop());
+    return is_interrupted_ || clock_.Seconds() >= options_.time_limit_s;
   }
-  FitOptions UnitOptions(const Surface& source, const Surface* target) const;
+  // Returns the options in the unit frame. `must_stop`: no stage begins any more.
+  FitOptions UnitOptions(const Surface& source, const Surface* target, bool must_stop) const;
   void Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state);
   // Moves every vertex of `fitted` (the source as warped by the nodes) onto the target, and stores
   // the displacements as the finish of the warp.
@@ -149,6 +152,8 @@ class Fitter {
   const EnergyRegistry& registry_;
   const PreparedSurface* prepared_source_;
   const Timer clock_;
+  // Whether options_.should_stop has returned true while the surfaces were prepared.
+  bool is_interrupted_ = false;
   Similarity unit_from_target_;
   // The pose from which the rigid stage started.
   Similarity given_;
@@ -165,13 +170,13 @@ void Fitter::Place() {
   const Timer timer;
   const bool is_placed = options_.rigid_first && input_.fixed_points.empty();
   if (is_placed) Report("rigid", 0.0);
+  const auto must_stop = [this] { return MustStop(); };
   PreparedSurface made;
   if (prepared_source_ == nullptr) {
-    made = PrepareSurface(input_.source, "the source", options_.num_threads);
+    made = PrepareSurface(input_.source, "the source", options_.num_threads, must_stop);
   }
   const PreparedSurface& source = prepared_source_ != nullptr ? *prepared_source_ : made;
-  const Placement placement =
-      PlaceSurfaces(input_, *source.surface, options_, [this] { return MustStop(); });
+  const Placement placement = PlaceSurfaces(input_, *source.surface, options_, must_stop);
   result_.rigid = placement.target_from_source;
   given_ = placement.given;
   result_.evidence.rigid_score = placement.score;
@@ -190,14 +195,16 @@ void Fitter::TakeToUnitFrame(const PointCloud& source, const PointCloud* target)
   PointCloud placed = Transformed(result_.rigid, source);
   unit_from_target_ = UnitFrame(placed);
   source_ = std::make_unique<Surface>(Transformed(unit_from_target_, placed), options_.num_threads);
-  if (target != nullptr) {
+  if (target != nullptr && !MustStop()) {
     target_ =
         std::make_unique<Surface>(Transformed(unit_from_target_, *target), options_.num_threads);
+  }
+  if (target_ != nullptr && !MustStop()) {
     noise_ = FinishNoise(*source_, *target_);
     result_.noise = noise_ / unit_from_target_.scale;
     Denoised denoised;
     if (options_.denoise) {
-      denoised = Denoise(*target_, noise_);
+      denoised = Denoise(*target_, noise_, [this] { return MustStop(); });
       noise_ = denoised.noise;
     }
     if (denoised.length > 0.0) {
@@ -207,10 +214,15 @@ void Fitter::TakeToUnitFrame(const PointCloud& source, const PointCloud* target)
   result_.times.prepare = timer.Seconds();
 }
 
-FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target) const {
+FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target, bool must_stop) const {
   FitOptions options = options_;
   options.graph.node_spacing *= unit_from_target_.scale * result_.rigid.scale;
   options.graph.num_threads = options_.num_threads;
+  if (must_stop) {
+    // What was left out is missing, even if should_stop returns false from now on.
+    if (is_interrupted_) options.should_stop = [] { return true; };
+    return options;
+  }
   options.graph.volume =
       options_.volume == VolumeRule::kOn ||
       (options_.volume == VolumeRule::kAuto && EnclosesBody(source.cloud(), source.topology()));
@@ -234,6 +246,7 @@ void Fitter::FinishEveryVertex(const UnitFit& fit,
   const bool is_whole =
       result_.status == SolveStatus::kConverged || result_.status == SolveStatus::kMaxIterations;
   if (!options_.finish || fit.target == nullptr || !is_whole || result_.rigid_only) return;
+  if (MustEnd(fit, &result_)) return;
   const Timer timer;
   const PointCloud moved = Transformed(unit_from_target_, *fitted);
   std::vector<Eigen::Vector3d> normals;
@@ -372,6 +385,10 @@ void Fitter::WarnAboutReflections(const DeformationState& state) {
 
 void Fitter::MeasureQuality(const BuiltGraph& graph) {
   if (target_ == nullptr || !result_.IsUsable()) return;
+  // A fit that was stopped before it had begun shows nothing, and its user waits.
+  const bool is_stopped =
+      result_.status == SolveStatus::kTimeLimit || result_.status == SolveStatus::kInterrupted;
+  if (is_stopped && result_.outer_iterations == 0) return;
   std::vector<Eigen::Vector3d> points = result_.points;
   for (Eigen::Vector3d& point : points) point = unit_from_target_ * point;
   std::vector<Eigen::Vector3d> computed;
@@ -396,7 +413,7 @@ StatusOr<FitResult> Fitter::Run() {
   std::vector<Landmark> fixed;
   for (const int point : input_.fixed_points)
     fixed.push_back({point, result_.rigid * input_.source.points[point]});
-  const FitOptions unit_options = UnitOptions(*source_, target_.get());
+  const FitOptions unit_options = UnitOptions(*source_, target_.get(), MustStop());
   // 2. The deformation by the nodes, from coarse to fine graphs.
   const UnitFit fit = {source_.get(),
                        target_.get(),

@@ -38,10 +38,12 @@ Placement PlaceSurfaces(const FitInput& input,
   placement.given =
       is_rigid_stage ? PoseFromLandmarks(input, options.rigid) : UnitPose(options.rigid);
   placement.target_from_source = placement.given;
-  if (input.target.empty()) return placement;
-  PreparedSurface prepared = PrepareSurface(input.target, "the target", options.num_threads);
+  if (input.target.empty() || should_stop()) return placement;
+  PreparedSurface prepared =
+      PrepareSurface(input.target, "the target", options.num_threads, should_stop);
   placement.target = std::move(prepared.surface);
   placement.notes = std::move(prepared.notes);
+  if (should_stop()) return placement;
 
   RigidOptions rigid = options.rigid;
   rigid.num_threads = options.num_threads;

@@ -17,7 +17,7 @@ namespace ceres_ed {
 
 // Both surfaces of a fit in their given frames, and the rigid placement of the source.
 struct Placement {
-  // The target; null if only landmarks are fitted.
+  // The target; null if only landmarks are fitted, or if the fit was stopped before it was needed.
   std::unique_ptr<const Surface> target;
   Similarity target_from_source;
   // The pose from which the rigid stage started: that of the landmarks, or the given one.
@@ -34,7 +34,7 @@ struct Placement {
 // guess: a closed target must enclose a volume of the same sign as a closed source; any other
 // target is turned inside out if this explains the surfaces clearly better. Without a rigid stage
 // (options.rigid_first is false, or there are fixed points) this is decided at the given pose.
-// `should_stop` ends the search with the best pose so far.
+// `should_stop` ends the placement with the best pose so far.
 Placement PlaceSurfaces(const FitInput& input,
                         const Surface& source,
                         const FitOptions& options,

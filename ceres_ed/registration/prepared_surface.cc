@@ -78,9 +78,18 @@ void ReconcilePoints(const std::string& name,
 
 }  // namespace
 
-PreparedSurface PrepareSurface(PointCloud cloud, const std::string& name, int num_threads) {
+PreparedSurface PrepareSurface(PointCloud cloud,
+                               const std::string& name,
+                               int num_threads,
+                               const std::function<bool()>& should_stop) {
+  const auto stopped = [&should_stop] { return should_stop && should_stop(); };
   PreparedSurface prepared;
   const bool has_normals = cloud.HasNormals();
+  if (stopped()) {
+    if (!has_normals) cloud.normals.assign(cloud.size(), Eigen::Vector3d::Zero());
+    prepared.surface = std::make_unique<const Surface>(std::move(cloud), num_threads);
+    return prepared;
+  }
   if (!has_normals && !cloud.HasTriangles()) {
     // The sides of separate parts are guesses that need not agree.
     int largest = 0;
@@ -92,7 +101,7 @@ PreparedSurface PrepareSurface(PointCloud cloud, const std::string& name, int nu
     ReconcilePoints(name, num_threads, &cloud, &prepared.notes);
   }
   prepared.surface = std::make_unique<const Surface>(std::move(cloud), num_threads);
-  if (!prepared.surface->cloud().HasTriangles()) return prepared;
+  if (!prepared.surface->cloud().HasTriangles() || stopped()) return prepared;
 
   const std::vector<int> against =
       TrianglesAgainstNeighbors(prepared.surface->cloud(), prepared.surface->topology());

@@ -5,6 +5,7 @@
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/surface.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,8 +27,12 @@ struct PreparedSurface {
 //     than 2 % of the others still do, all normals are computed from the triangles.
 //   - If normals of neighbouring bare points point to opposite sides, their signs are chosen anew
 //     (ChooseNormalSigns()). Where this leaves contradictions, normals_oriented becomes false.
-// `name` is the noun of the notes ("the target").
-PreparedSurface PrepareSurface(PointCloud cloud, const std::string& name, int num_threads);
+// `name` is the noun of the notes ("the target"). `should_stop` is asked before each long step; if
+// it returns true, the surface stays as it is then, and its normals are zero where none were given.
+PreparedSurface PrepareSurface(PointCloud cloud,
+                               const std::string& name,
+                               int num_threads,
+                               const std::function<bool()>& should_stop = {});
 
 // Returns the surface of `surface` turned inside out.
 std::unique_ptr<const Surface> Reversed(const Surface& surface, int num_threads);

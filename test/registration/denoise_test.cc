@@ -240,5 +240,14 @@ TEST(Denoise, ScalesWithTheUnitAndIsTheSameEachTime) {
   }
 }
 
+TEST(Denoise, SmoothsNothingAfterAStop) {
+  const Surface surface(WithHeights(MakeTriangularLattice(), 0.3, 5));
+  ASSERT_GT(Denoise(surface, 0.3).length, 0.0);
+  const Denoised denoised = Denoise(surface, 0.3, [] { return true; });
+  EXPECT_EQ(denoised.length, 0.0);
+  EXPECT_EQ(denoised.noise, 0.3);
+  EXPECT_TRUE(denoised.cloud.empty());
+}
+
 }  // namespace
 }  // namespace ceres_ed

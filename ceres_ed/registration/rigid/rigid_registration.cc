@@ -300,12 +300,18 @@ RigidResult AlignRigid(const Surface& source,
                        const Surface& target,
                        const Similarity& given,
                        const RigidOptions& options) {
+  const auto stopped = [&options] { return options.should_stop && options.should_stop(); };
   const Similarity initial = options.with_scale ? WithPlausibleScale(source, target, given) : given;
-  const StartFinder finder(source, target, initial, options);
   RigidResult result;
+  result.target_from_source = initial;
+  if (stopped()) return result;
+  const StartFinder finder(source, target, initial, options);
   std::vector<ScoredPose> refined;
   const ScoredPose best = finder.Find(&result.starts_tried, &refined);
   result.runner_up = RunnerUp(best, refined, source.cloud().points);
+  result.target_from_source = best.pose;
+  result.reversed = best.reversed;
+  if (stopped()) return result;
   // Finally the best pose is refined on the points themselves.
   const RigidAligner fine(MakeRigidSide(source, kFineSamples),
                           MakeRigidSide(target, kFineSamples),
@@ -314,7 +320,6 @@ RigidResult AlignRigid(const Surface& source,
       fine.Refine(best.pose, kFineIterations), source, target, options, best.reversed);
   result.score = fine.Score(result.target_from_source).Total();
   result.curvature = fine.LeastCurvature(result.target_from_source);
-  result.reversed = best.reversed;
   return result;
 }
 
