@@ -154,6 +154,22 @@ int OrientNormals(const std::vector<Eigen::Vector3d>& points,
   return static_cast<int>(largest);
 }
 
+// Adds to `sum` the normal of a triangle, weighted by the angle of its corner `i`; nothing if the
+// triangle has no area.
+void AddCornerNormal(const PointCloud& cloud,
+                     const std::array<int, 3>& triangle,
+                     int i,
+                     Eigen::Vector3d* sum) {
+  const Eigen::Vector3d& a = cloud.points[triangle[i]];
+  const Eigen::Vector3d ab = cloud.points[triangle[(i + 1) % 3]] - a;
+  const Eigen::Vector3d ac = cloud.points[triangle[(i + 2) % 3]] - a;
+  const Eigen::Vector3d cross = ab.cross(ac);
+  const double norm = cross.norm();
+  if (!(norm > 0.0)) return;
+  const double angle = std::atan2(norm, ab.dot(ac));
+  *sum += angle / norm * cross;
+}
+
 }  // namespace
 
 std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud) {
@@ -161,14 +177,7 @@ std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud) {
   std::vector<Eigen::Vector3d> normals(cloud.size(), Eigen::Vector3d::Zero());
   for (const std::array<int, 3>& triangle : cloud.triangles) {
     for (int i = 0; i < 3; ++i) {
-      const Eigen::Vector3d& a = cloud.points[triangle[i]];
-      const Eigen::Vector3d ab = cloud.points[triangle[(i + 1) % 3]] - a;
-      const Eigen::Vector3d ac = cloud.points[triangle[(i + 2) % 3]] - a;
-      const Eigen::Vector3d cross = ab.cross(ac);
-      const double norm = cross.norm();
-      if (!(norm > 0.0)) continue;
-      const double angle = std::atan2(norm, ab.dot(ac));
-      normals[representative[triangle[i]]] += angle / norm * cross;
+      AddCornerNormal(cloud, triangle, i, &normals[representative[triangle[i]]]);
     }
   }
   for (std::size_t p = 0; p < normals.size(); ++p) {
@@ -179,6 +188,32 @@ std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud) {
     }
     const double norm = normals[p].norm();
     if (norm > 0.0) normals[p] /= norm;
+  }
+  return normals;
+}
+
+std::vector<Eigen::Vector3d> ComputeVertexNormalsAt(const std::vector<int>& points,
+                                                    const PointCloud& cloud,
+                                                    const SurfaceTopology& topology) {
+  // The rank in `points` of each representative, or -1.
+  std::vector<int> rank(cloud.size(), -1);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    rank[topology.representative[points[i]]] = static_cast<int>(i);
+  }
+  std::vector<Eigen::Vector3d> normals(points.size(), Eigen::Vector3d::Zero());
+  for (const std::array<int, 3>& triangle : cloud.triangles) {
+    for (int i = 0; i < 3; ++i) {
+      const int at = rank[topology.representative[triangle[i]]];
+      if (at >= 0) AddCornerNormal(cloud, triangle, i, &normals[at]);
+    }
+  }
+  for (Eigen::Vector3d& normal : normals) {
+    const double norm = normal.norm();
+    if (norm > 0.0) normal /= norm;
+  }
+  // Points at one position share a normal.
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    normals[i] = normals[rank[topology.representative[points[i]]]];
   }
   return normals;
 }

@@ -3,6 +3,7 @@
 #define CERES_ED_GEOMETRY_NORMALS_H_
 
 #include <ceres_ed/geometry/point_cloud.h>
+#include <ceres_ed/geometry/topology.h>
 
 #include <vector>
 
@@ -17,6 +18,12 @@ inline constexpr int kNormalNeighbors = 12;
 // points at the same position share a normal. It is zero for points in no triangle of positive
 // area.
 std::vector<Eigen::Vector3d> ComputeVertexNormals(const PointCloud& cloud);
+
+// Returns the normals of ComputeVertexNormals() at `points` alone, in their order. `topology` must
+// be that of `cloud`.
+std::vector<Eigen::Vector3d> ComputeVertexNormalsAt(const std::vector<int>& points,
+                                                    const PointCloud& cloud,
+                                                    const SurfaceTopology& topology);
 
 // Returns one unit normal for each point: the direction in which its `neighbors` nearest points
 // (itself included, at least 3) spread least. It is zero where these points do not span a plane.

@@ -40,6 +40,20 @@ TEST(ComputeVertexNormals, AreSharedByPointsAtTheSamePosition) {
   }
 }
 
+TEST(ComputeVertexNormals, AreTheSameAtSomePointsAlone) {
+  std::vector<int> source;
+  PointCloud soup = Unweld(MakeSphereMesh(1), &source);
+  soup.points.emplace_back(9, 9, 9);
+  const std::vector<Eigen::Vector3d> all = ComputeVertexNormals(soup);
+  // Among them are several at one position, and one without a triangle.
+  std::vector<int> points;
+  for (int p = static_cast<int>(soup.size()) - 1; p >= 0; p -= 2) points.push_back(p);
+  const std::vector<Eigen::Vector3d> some =
+      ComputeVertexNormalsAt(points, soup, BuildTopology(soup));
+  ASSERT_EQ(some.size(), points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(some[i], all[points[i]]);
+}
+
 TEST(ComputeVertexNormals, AreZeroWhereThereIsNoArea) {
   PointCloud mesh = MakeGridMesh(2, 2);
   mesh.points.emplace_back(9, 9, 9);

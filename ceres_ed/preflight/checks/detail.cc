@@ -25,29 +25,32 @@ constexpr double kHarmlessShare = 0.3;
 void CheckDetail(const Specimen& specimen, std::vector<Finding>* findings) {
   const PointCloud& cloud = *specimen.cloud;
   if (!cloud.HasTriangles()) return;
-  const std::vector<Eigen::Vector3d> normals = ComputeVertexNormals(cloud);
   const std::vector<int>& order = specimen.topology->walk_order;
-  std::vector<int> samples;
-  std::vector<Eigen::Vector3d> points;
+  std::vector<int> candidates;
   const std::size_t step = std::max<std::size_t>(1, order.size() / kSamples);
-  for (std::size_t i = 0; i < order.size(); i += step) {
-    if (normals[order[i]].isZero()) continue;
-    samples.push_back(order[i]);
-    points.push_back(cloud.points[order[i]]);
+  for (std::size_t i = 0; i < order.size(); i += step) candidates.push_back(order[i]);
+  const std::vector<Eigen::Vector3d> computed =
+      ComputeVertexNormalsAt(candidates, cloud, *specimen.topology);
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Eigen::Vector3d> normals;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (computed[i].isZero()) continue;
+    points.push_back(cloud.points[candidates[i]]);
+    normals.push_back(computed[i]);
   }
   const KdTree tree(points);
   const double radius = kNodeSpacing * Diagonal(cloud.points);
   std::vector<Neighbor> patch;
   int looked_at = 0;
   int crumpled = 0;
-  const std::size_t stride = std::max<std::size_t>(1, samples.size() / kPatches);
-  for (std::size_t i = 0; i < samples.size(); i += stride) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / kPatches);
+  for (std::size_t i = 0; i < points.size(); i += stride) {
     tree.RadiusSearch(points[i], radius, &patch);
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     int count = 0;
     for (const Neighbor& neighbor : patch) {
-      const Eigen::Vector3d& normal = normals[samples[neighbor.index]];
-      if (normal.dot(normals[samples[i]]) <= 0.0) continue;
+      const Eigen::Vector3d& normal = normals[neighbor.index];
+      if (normal.dot(normals[i]) <= 0.0) continue;
       sum += normal;
       ++count;
     }

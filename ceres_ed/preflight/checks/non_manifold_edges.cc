@@ -2,27 +2,45 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
+#include <cstddef>
+#include <numeric>
+#include <vector>
 
 namespace ceres_ed {
+namespace {
 
-void CheckNonManifoldEdges(const Specimen& specimen, std::vector<Finding>* findings) {
+// Calls visit(low, high) for each edge of each triangle, with the representatives of its ends.
+template <typename Visitor>
+void ForEdges(const Specimen& specimen, const Visitor& visit) {
   const std::vector<int>& representative = specimen.topology->representative;
-  std::vector<std::pair<int, int>> edges;
-  edges.reserve(3 * specimen.cloud->triangles.size());
   for (const std::array<int, 3>& t : specimen.cloud->triangles) {
     for (int i = 0; i < 3; ++i) {
       const auto [low, high] = std::minmax(representative[t[i]], representative[t[(i + 1) % 3]]);
-      if (low != high) edges.emplace_back(low, high);
+      if (low != high) visit(low, high);
     }
   }
-  std::sort(edges.begin(), edges.end());
+}
+
+}  // namespace
+
+void CheckNonManifoldEdges(const Specimen& specimen, std::vector<Finding>* findings) {
+  // The higher ends of the edges of each lower end: from offsets[low] to offsets[low + 1].
+  std::vector<std::size_t> offsets(specimen.cloud->size() + 1, 0);
+  ForEdges(specimen, [&](int low, int) { ++offsets[low + 1]; });
+  std::partial_sum(offsets.begin(), offsets.end(), offsets.begin());
+  std::vector<int> ends(offsets.back());
+  std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
+  ForEdges(specimen, [&](int low, int high) { ends[next[low]++] = high; });
   int count = 0;
-  for (std::size_t begin = 0; begin < edges.size();) {
-    std::size_t end = begin;
-    while (end < edges.size() && edges[end] == edges[begin]) ++end;
-    if (end - begin > 2) ++count;
-    begin = end;
+  for (std::size_t low = 0; low + 1 < offsets.size(); ++low) {
+    const auto last = ends.begin() + static_cast<std::ptrdiff_t>(offsets[low + 1]);
+    auto begin = ends.begin() + static_cast<std::ptrdiff_t>(offsets[low]);
+    std::sort(begin, last);
+    while (begin != last) {
+      const auto end = std::upper_bound(begin, last, *begin);
+      if (end - begin > 2) ++count;
+      begin = end;
+    }
   }
   if (count == 0) return;
   findings->push_back(
