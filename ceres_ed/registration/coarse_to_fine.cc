@@ -79,7 +79,10 @@ StatusOr<BuiltGraph> GraphForNoTime(const Surface& source) {
   GraphOptions options;
   options.distance = DistanceRule::kEuclidean;
   options.auto_spacing = 0.3;
-  return BuildGraph(source.cloud(), options);
+  // How the points are connected does not matter to so few nodes, and takes longest to find.
+  PointCloud points;
+  points.points = source.cloud().points;
+  return BuildGraph(points, options);
 }
 
 // Links the pieces of the source that have no landmark to the pieces near them: landmarks on some
