@@ -90,7 +90,7 @@ double MeanOfLeft(const std::vector<double>& errors, const std::vector<double>& 
   return area / count;
 }
 
-std::optional<Calibration> Summarize(const std::vector<Point>& points) {
+std::optional<Calibration> CalibrationOf(const std::vector<Point>& points) {
   if (points.size() < 2) return std::nullopt;
   const auto size = static_cast<double>(points.size());
   const auto share_inside = [&](double level) {
@@ -144,9 +144,9 @@ CalibrationFigures MeasureCalibration(const std::vector<Eigen::Vector3d>& errors
     all.push_back(*point);
     (is_seen[p] != 0 ? seen : hidden).push_back(*point);
   }
-  figures.all = Summarize(all);
-  figures.seen = Summarize(seen);
-  figures.hidden = Summarize(hidden);
+  figures.all = CalibrationOf(all);
+  figures.seen = CalibrationOf(seen);
+  figures.hidden = CalibrationOf(hidden);
   return figures;
 }
 
