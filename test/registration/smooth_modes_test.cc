@@ -14,7 +14,7 @@ namespace {
 DeformationGraph CubeGraph() {
   DeformationGraph graph;
   for (int i = 0; i < 125; ++i) {
-    graph.AddNode(0.25 * Eigen::Vector3d(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2));
+    graph.AddNode(0.25 * Eigen::Vector3i(i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2).cast<double>());
   }
   return graph;
 }
