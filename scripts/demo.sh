@@ -99,9 +99,9 @@ say "figures that look alarming, and are not"
 cat <<END
 - In heart, kidney and stomach_partial the target shows 40 to 45 % of the surface. "target to result"
   measures this part. "result to target" and "result to truth" include the hidden part, which no data
-  determine: about 2 % to the truth is what can be expected. For the same reason a third of the matches
+  determine: about 1.5 % to the truth is what can be expected. For the same reason a third of the matches
   are no inliers.
-- "max_iterations" says that the surface still moved a little in the last round; the result is usable.
+- "verdict" judges a result by what can be measured without the truth: good, doubtful or bad, with reasons.
 - Tracking: camera and tissue can exchange a motion that the whole view shares, so the camera may be off
   by millimetres while each map point stays within a fraction of a millimetre of its tissue ("tracking,
   seen"). Hidden points are predicted, and their errors are larger.
