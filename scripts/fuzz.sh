@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Fuzzes the readers of files that users give, and then whole programs: fuzz.sh MINUTES [READER ...]
-# Each reader gets the same share of four fifths of the time, half of the cores' worth of them at once; the programs get the rest.
+# The readers share four fifths of the time, as many at once as there are cores; then come 60 runs of programs a minute.
 # Prints executions and peak memory of each reader. What crashes one is kept in build/fuzz/crashes: once mended, it
 # belongs into test/fuzz/corpus/READER, where the ordinary tests replay it.
 set -euo pipefail

@@ -113,8 +113,8 @@ TEST_F(EdFitCovarianceTest, FileHasTheCovarianceOfEachVertex) {
   }
 }
 
-// Over the whole body, and where the target shows it and where it does not. The truth is that of
-// the generator; the scale was fitted to other pairs.
+// The truth is that of the generator. The scale was fitted to this pair among others, so the bounds
+// hold the form of the covariances; scripts/bench_uncertainty.py measures them on other pairs.
 TEST_F(EdFitCovarianceTest, EllipsoidsCoverTheTruth) {
   const std::string path = dir_ / "covariance.ply";
   ASSERT_EQ(RunProgramFile(AppPath("ed_fit"),

@@ -130,7 +130,7 @@ Status WriteCovariances(const std::string& path, const FitFiles& files, const Fi
   PlyDocument document;
   std::ostringstream scale;
   scale << "Covariances of x y z in the squared unit of the file, and std_dev, the root of their "
-           "trace; -1 0 0 -1 0 -1 and -1 where nothing is known. They were multiplied by "
+           "trace; all are -1 where nothing is known. They were multiplied by "
         << FitUncertainty::kScale << ", which was fitted to known errors.";
   document.comments = {scale.str()};
   PlyElement rows;
