@@ -4,21 +4,19 @@
 #include <ceres_ed/util/nearest_word.h>
 #include <ceres_ed/version.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
-#include <sstream>
 #include <string_view>
 #include <thread>
 
+#include <apps/support/help/flag_text.h>
 #include <apps/support/option_flags.h>
 
 namespace ceres_ed {
 namespace {
 
-constexpr int kHelpColumns = 100;
 constexpr int kMaxFlagFileDepth = 8;
 
 bool StartsWith(std::string_view text, std::string_view prefix) {
@@ -63,12 +61,6 @@ std::optional<std::string> ValueOfWord(const std::string& flag, const std::strin
     if (word == special.word) return NumberText(special.on_flag);
   }
   return std::nullopt;
-}
-
-std::string TypeName(const gflags::CommandLineFlagInfo& flag) {
-  if (flag.type == "bool") return "true|false";
-  if (flag.type == "string") return "text";
-  return flag.type == "double" ? "number" : "integer";
 }
 
 class Parser {
@@ -128,15 +120,9 @@ class Parser {
   }
 
   Status TakeHelp(const std::string& scope) {
-    if (scope.empty()) {
-      result_.request = CommandLine::Request::kHelp;
-    } else if (scope == "all") {
-      result_.request = CommandLine::Request::kHelpAll;
-    } else if (scope == "markdown") {
-      result_.request = CommandLine::Request::kHelpMarkdown;
-    } else {
-      return Status::Error("--help=" + scope + ", expected all");
-    }
+    result_.help = FindHelpFormat(scope);
+    if (result_.help == nullptr) return Status::Error("--help=" + scope + ", expected all");
+    result_.request = CommandLine::Request::kHelp;
     return Status::Ok();
   }
 
@@ -168,7 +154,7 @@ class Parser {
     const bool is_nan = flag.type == "double" && std::isnan(std::strtod(value.c_str(), nullptr));
     if (is_nan || gflags::SetCommandLineOption(flag.name.c_str(), value.c_str()).empty()) {
       return Status::Error("bad value --" + flag.name + "=" + value + ", expected " +
-                           TypeName(flag));
+                           TypeText(flag));
     }
     return Status::Ok();
   }
@@ -177,125 +163,6 @@ class Parser {
   std::size_t next_ = 0;
   CommandLine result_;
 };
-
-// Breaks `text` into lines of at most `width` columns and indents all but the first by `indent`.
-std::string Wrap(const std::string& text, int indent, int width) {
-  std::istringstream words(text);
-  std::string result;
-  std::string word;
-  int column = 0;
-  while (words >> word) {
-    const int size = static_cast<int>(word.size());
-    if (column > 0 && column + 1 + size > width) {
-      result += "\n" + std::string(indent, ' ');
-      column = 0;
-    } else if (column > 0) {
-      result += " ";
-      ++column;
-    }
-    result += word;
-    column += size;
-  }
-  return result;
-}
-
-std::string ShortValue(const gflags::CommandLineFlagInfo& flag, const std::string& value) {
-  return flag.type == "double" ? NumberText(std::strtod(value.c_str(), nullptr)) : value;
-}
-
-gflags::CommandLineFlagInfo InfoOf(const OptionFlag& flag) {
-  return gflags::GetCommandLineFlagInfoOrDie(flag.option->name.c_str());
-}
-
-std::string DefaultOf(const OptionFlag& flag) {
-  const gflags::CommandLineFlagInfo info = InfoOf(flag);
-  return ShortValue(info, info.default_value);
-}
-
-// Returns a text such as "0 = automatic".
-std::string SpecialsText(const Option& option) {
-  std::string text;
-  for (const SpecialValue& special : option.specials) {
-    text += (text.empty() ? "" : ", ") + NumberText(special.on_flag) + " = " + special.word;
-  }
-  return text;
-}
-
-// Returns the first of a list of names if the list is long, and "...".
-std::string FirstNames(const std::string& names) {
-  constexpr int kMost = 5;
-  constexpr int kShown = 3;
-  if (std::count(names.begin(), names.end(), ',') < kMost) return names;
-  std::size_t end = 0;
-  for (int i = 0; i < kShown; ++i) end = names.find(',', end) + 1;
-  return names.substr(0, end) + " ..";
-}
-
-// Returns the sentence of a flag, the names or words that a value may have (by `scope` only the
-// first of many), the default and the unit.
-std::string DescriptionOf(const OptionFlag& flag, HelpScope scope) {
-  const Option& option = *flag.option;
-  const std::string names = scope == HelpScope::kShort ? FirstNames(flag.names) : flag.names;
-  std::string text = option.doc;
-  if (!names.empty()) text += " One of " + names + ".";
-  if (const std::string specials = SpecialsText(option); !specials.empty()) {
-    text += " " + specials + ".";
-  }
-  const std::string fallback = DefaultOf(flag);
-  if (fallback.empty()) return text;
-  return text + " [" + fallback + (option.unit.empty() ? "" : " " + option.unit) + "]";
-}
-
-// Returns a text such as "output, -o".
-std::string NamesOf(const Option& option) {
-  return option.letter == 0 ? option.name : option.name + ", -" + option.letter;
-}
-
-struct HelpGroup {
-  OptionGroup group;
-  const char* title;
-};
-constexpr HelpGroup kHelpGroups[] = {{OptionGroup::kFiles, "Files"},
-                                     {OptionGroup::kMain, "What matters"},
-                                     {OptionGroup::kExpert, "For experts"}};
-
-std::vector<const OptionFlag*> FlagsOf(OptionGroup group) {
-  std::vector<const OptionFlag*> flags;
-  for (const OptionFlag* flag : RegisteredOptionFlags()) {
-    if (flag->option->group == group) flags.push_back(flag);
-  }
-  return flags;
-}
-
-std::string HelpLines(const std::vector<const OptionFlag*>& flags,
-                      std::size_t name_width,
-                      HelpScope scope) {
-  constexpr int kTypeWidth = 10;
-  const int indent = static_cast<int>(name_width) + kTypeWidth + 6;
-  std::string text;
-  for (const OptionFlag* flag : flags) {
-    const std::string names = NamesOf(*flag->option);
-    const std::string type = TypeName(InfoOf(*flag));
-    text += "  --" + names + std::string(name_width - names.size() + 1, ' ') + type +
-            std::string(kTypeWidth - type.size() + 1, ' ') +
-            Wrap(DescriptionOf(*flag, scope), indent, kHelpColumns - indent) + "\n";
-  }
-  return text;
-}
-
-std::string RangeCell(const OptionFlag& flag) {
-  const std::string type = TypeName(InfoOf(flag));
-  if (!flag.names.empty()) return flag.names;
-  return type == "text" || type == "true|false" ? type : flag.expected;
-}
-
-// Returns the text of a cell. A bar would end the cell, so it is escaped.
-std::string AsCell(const std::string& text) {
-  std::string cell;
-  for (const char letter : text)
-    cell += letter == '|' ? std::string("\\|") : std::string(1, letter);
-  return cell.empty() ? "-" : cell;
-}
 
 std::string ArgumentCountText(const ProgramInfo& info) {
   if (info.min_arguments == info.max_arguments) return std::to_string(info.min_arguments);
@@ -315,42 +182,6 @@ StatusOr<CommandLine> ParseCommandLine(const ProgramInfo& info, int argc, const 
   return parsed;
 }
 
-std::string HelpText(const ProgramInfo& info, HelpScope scope) {
-  std::string text = "Usage: " + info.name + " " + info.arguments + "\n\n" +
-                     Wrap(info.description, 0, kHelpColumns) + "\n";
-  std::size_t name_width = 0;
-  std::size_t num_hidden = 0;
-  for (const OptionFlag* flag : RegisteredOptionFlags()) {
-    const bool is_hidden =
-        scope == HelpScope::kShort && flag->option->group == OptionGroup::kExpert;
-    if (is_hidden) ++num_hidden;
-    if (!is_hidden) name_width = std::max(name_width, NamesOf(*flag->option).size());
-  }
-  for (const HelpGroup& group : kHelpGroups) {
-    const std::vector<const OptionFlag*> flags = FlagsOf(group.group);
-    if (flags.empty()) continue;
-    if (scope == HelpScope::kShort && group.group == OptionGroup::kExpert) continue;
-    text += "\n" + std::string(group.title) + " [default]:\n" + HelpLines(flags, name_width, scope);
-  }
-  if (num_hidden > 0) {
-    text += "\n--help=all shows " + std::to_string(num_hidden) + " more flags, for experts.\n";
-  }
-  return text + "\nExample: " + info.example + "\n";
-}
-
-std::string FlagsAsMarkdown() {
-  std::string table = "| flag | unit | range | default | meaning |\n|---|---|---|---|---|\n";
-  for (const HelpGroup& group : kHelpGroups) {
-    for (const OptionFlag* flag : FlagsOf(group.group)) {
-      const Option& option = *flag->option;
-      table += "| `--" + option.name + "` | " + AsCell(option.unit) + " | " +
-               AsCell(RangeCell(*flag)) + " | " + AsCell(DefaultOf(*flag)) + " | " +
-               AsCell(option.doc) + " |\n";
-    }
-  }
-  return table;
-}
-
 std::string VersionText() {
   const LinearAlgebraBackend backend = DescribeBackend();
   return std::string("ceres_ed ") + kVersion + "\nCeres " + backend.ceres_version +
@@ -362,7 +193,7 @@ std::string VersionText() {
 
 std::string CurrentValue(const std::string& name) {
   const gflags::CommandLineFlagInfo flag = gflags::GetCommandLineFlagInfoOrDie(name.c_str());
-  return ShortValue(flag, flag.current_value);
+  return ValueText(flag, flag.current_value);
 }
 
 std::vector<gflags::CommandLineFlagInfo> OwnFlags() {

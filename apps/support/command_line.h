@@ -1,4 +1,4 @@
-// Parses the command line with gflags. Errors are one sentence, and --help fits on one screen.
+// Parses the command line with gflags. Errors are one sentence, and --help has several formats.
 #ifndef CERES_ED_APPS_SUPPORT_COMMAND_LINE_H_
 #define CERES_ED_APPS_SUPPORT_COMMAND_LINE_H_
 
@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <apps/support/help/help.h>
 #include <apps/support/program.h>
 #include <gflags/gflags.h>
 
@@ -14,9 +15,11 @@ namespace ceres_ed {
 
 // What a command line requests. When it is returned, the flags have been set.
 struct CommandLine {
-  enum class Request { kRun, kHelp, kHelpAll, kHelpMarkdown, kVersion };
+  enum class Request { kRun, kHelp, kVersion };
 
   Request request = Request::kRun;
+  // The format of the help that is requested.
+  const HelpFormat* help = nullptr;
   std::vector<std::string> arguments;
 };
 
@@ -25,20 +28,6 @@ struct CommandLine {
 // flags. A number may be given by its word ("auto"). It is an error if a flag is unknown (the error
 // names the nearest flag), if a value is bad, or if the number of positional arguments is wrong.
 StatusOr<CommandLine> ParseCommandLine(const ProgramInfo& info, int argc, const char* const* argv);
-
-// The flags that --help shows.
-enum class HelpScope {
-  // The flags for files and the flags for most users.
-  kShort,
-  // Every flag.
-  kAll,
-};
-
-// Returns the text of --help in lines of at most 100 columns.
-std::string HelpText(const ProgramInfo& info, HelpScope scope);
-
-// Returns a table of all flags in Markdown: name, unit, range, default and meaning.
-std::string FlagsAsMarkdown();
 
 // Returns the text of --version: a line each for ceres_ed, Ceres, the sparse library, the ordering
 // library, BLAS, the vector kernels, and the number of hardware threads.

@@ -71,13 +71,7 @@ Outcome ParseAndRun(const ProgramInfo& info,
   if (!command_line.ok()) return Outcome::Usage(command_line.status().message());
   switch (command_line->request) {
     case CommandLine::Request::kHelp:
-      std::fputs(HelpText(info, HelpScope::kShort).c_str(), stdout);
-      return Outcome::Done();
-    case CommandLine::Request::kHelpAll:
-      std::fputs(HelpText(info, HelpScope::kAll).c_str(), stdout);
-      return Outcome::Done();
-    case CommandLine::Request::kHelpMarkdown:
-      std::fputs(FlagsAsMarkdown().c_str(), stdout);
+      std::fputs(command_line->help->text(info).c_str(), stdout);
       return Outcome::Done();
     case CommandLine::Request::kVersion:
       std::fputs(VersionText().c_str(), stdout);

@@ -146,7 +146,7 @@ TEST(OptionFlags, SuggestTheNearestFlagForAMisspeltOne) {
 }
 
 TEST(OptionFlags, AreShownInGroupsWithUnitsAndDefaults) {
-  const std::string all = HelpText(kInfo, HelpScope::kAll);
+  const std::string all = FullHelp(kInfo);
   const std::size_t files = all.find("\nFiles ");
   const std::size_t main = all.find("\nWhat matters ");
   const std::size_t expert = all.find("\nFor experts ");
@@ -165,7 +165,7 @@ TEST(OptionFlags, AreShownInGroupsWithUnitsAndDefaults) {
 }
 
 TEST(OptionFlags, ForExpertsAreLeftOutOfTheShortHelp) {
-  const std::string text = HelpText(kInfo, HelpScope::kShort);
+  const std::string text = ShortHelp(kInfo);
   EXPECT_THAT(text, HasSubstr("\n  --target, -t "));
   EXPECT_THAT(text, HasSubstr("\n  --count "));
   EXPECT_THAT(text, Not(HasSubstr("--share")));
@@ -173,22 +173,24 @@ TEST(OptionFlags, ForExpertsAreLeftOutOfTheShortHelp) {
 }
 
 TEST(OptionFlags, AreTheRowsOfATable) {
-  const std::string table = FlagsAsMarkdown();
+  const std::string table = MarkdownHelp(kInfo);
   EXPECT_THAT(table,
               HasSubstr("| `--limit` | metres | a number > 0 (0 = unlimited) | 0 | The "
                         "limit. |\n"));
   EXPECT_THAT(table, HasSubstr("| `--colour` | - | red, blue | blue | The colour. |\n"));
 }
 
-TEST(CommandLine, TakesTheScopeOfHelp) {
-  const auto request_of = [](const char* word) {
+TEST(CommandLine, TakesTheFormatOfHelp) {
+  const auto help_of = [](const char* word) -> std::string {
     const char* words[] = {"prog", word};
     const auto parsed = ParseCommandLine(kInfo, 2, words);
-    return parsed.ok() ? parsed->request : CommandLine::Request::kRun;
+    if (!parsed.ok() || parsed->request != CommandLine::Request::kHelp) return "";
+    return parsed->help->text(kInfo);
   };
-  EXPECT_EQ(request_of("--help"), CommandLine::Request::kHelp);
-  EXPECT_EQ(request_of("-h"), CommandLine::Request::kHelp);
-  EXPECT_EQ(request_of("--help=all"), CommandLine::Request::kHelpAll);
+  EXPECT_EQ(help_of("--help"), ShortHelp(kInfo));
+  EXPECT_EQ(help_of("-h"), ShortHelp(kInfo));
+  EXPECT_EQ(help_of("--help=all"), FullHelp(kInfo));
+  EXPECT_EQ(help_of("--help=man"), ManPage(kInfo));
   EXPECT_EQ(Parse({"--help=most"}).message(), "--help=most, expected all");
 }
 
