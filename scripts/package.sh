@@ -7,6 +7,8 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=build/packages
 scripts/setup.sh packages pcl video
+# The date of the changelogs is that of the sources.
+if date=$(git log -1 --format=%ct 2>/dev/null); then export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$date}; fi
 # A folder of its own beside that of the preset: same objects, so a compiler cache serves both.
 scripts/configure.sh release -B build/release-packages -DBUILD_SHARED_LIBS=ON \
   -DCMAKE_INSTALL_PREFIX=/usr -DCERES_ED_BUILD_TESTS=OFF -DCERES_ED_BUILD_APPS=ON \

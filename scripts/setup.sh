@@ -39,7 +39,7 @@ add_list() {
     python) add_list tracking && add python3-dev pybind11-dev python3-numpy ;;
     pcl) add_list fit && add libpcl-dev ;;
     video) add_list tracking && add libopencv-videoio-dev ;;
-    packages) add_list python && add dpkg-dev file ;;
+    packages) add_list python && add dpkg-dev file lintian ;;
     docs) add doxygen python3 ;;
     test)
       for list in packages pcl video docs; do add_list "$list"; done

@@ -6,7 +6,7 @@
 #   python   the Python package (ceres_ed/python)
 #   pcl      the module for PCL, with its header (ceres_ed/pcl)
 #   video    the module for videos (ceres_ed/video)
-#   doc      the licence; each Debian package has one of its own (packages.cmake)
+#   doc      the pages with their pictures, the examples, and the licence
 include(CMakePackageConfigHelpers)
 
 set(ceres_ed_headers_dir ${CMAKE_INSTALL_INCLUDEDIR}/ceres_ed-${PROJECT_VERSION})
@@ -91,8 +91,21 @@ file(RELATIVE_PATH CERES_ED_PC_INCLUDEDIR ${CMAKE_INSTALL_PREFIX} ${CMAKE_INSTAL
 configure_file(scripts/cmake/ceres_ed.pc.in ${PROJECT_BINARY_DIR}/ceres_ed.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/ceres_ed.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT dev)
 
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/ceres_ed COMPONENT doc)
+set(ceres_ed_doc_dir ${CMAKE_INSTALL_DATADIR}/doc/ceres_ed)
+install(FILES README.md CHANGELOG.md CITATION.cff LICENSE DESTINATION ${ceres_ed_doc_dir} COMPONENT doc)
+# In their tree, so that the links between them lead somewhere.
+file(GLOB_RECURSE ceres_ed_pages CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}
+     apps/*.md ceres_ed/*.md cost_functions/*.md data/*.md scripts/*.md test/*.md scripts/images/*.png
+     ceres_ed/*.png)
+foreach(page IN LISTS ceres_ed_pages)
+  get_filename_component(folder ${page} DIRECTORY)
+  install(FILES ${page} DESTINATION ${ceres_ed_doc_dir}/${folder} COMPONENT doc)
+endforeach()
+install(DIRECTORY apps/examples DESTINATION ${ceres_ed_doc_dir}/apps COMPONENT doc)
 if(CERES_ED_BUILD_APPS)
+  configure_file(scripts/cmake/ceres_ed_demo.1 ${PROJECT_BINARY_DIR}/ceres_ed_demo.1 COPYONLY)
+  execute_process(COMMAND gzip --best --no-name --force ${PROJECT_BINARY_DIR}/ceres_ed_demo.1)
+  install(FILES ${PROJECT_BINARY_DIR}/ceres_ed_demo.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT tools)
   install(PROGRAMS scripts/demo.sh DESTINATION ${CMAKE_INSTALL_BINDIR} RENAME ceres_ed_demo COMPONENT tools)
   install(DIRECTORY data DESTINATION ${CMAKE_INSTALL_DATADIR}/ceres_ed COMPONENT tools
           FILES_MATCHING REGEX "/data/[^/]+/[^/]+$")

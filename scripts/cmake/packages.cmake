@@ -3,9 +3,10 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME ceres-ed)
 set(CPACK_PACKAGE_VENDOR "the ceres_ed authors")
-# Whoever hands packages on puts an address here (-DCPACK_PACKAGE_CONTACT="Name <mail>").
+# Debian wants an address. Whoever hands packages on puts one here that is read
+# (-DCPACK_PACKAGE_CONTACT="Name <mail>"); that of the default can belong to nobody (RFC 2606).
 if(NOT CPACK_PACKAGE_CONTACT)
-  set(CPACK_PACKAGE_CONTACT ${CPACK_PACKAGE_VENDOR})
+  set(CPACK_PACKAGE_CONTACT "ceres_ed authors <ceres-ed@packages.invalid>")
 endif()
 # Each package has a summary of its own.
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "")
@@ -21,11 +22,22 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/ceres_ed)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_COMPONENTS_ALL "")
 
+# The changelog of all packages. SOURCE_DATE_EPOCH sets its date, so that the same sources make the same
+# packages.
+set(ceres_ed_debian ${PROJECT_BINARY_DIR}/debian)
+string(TIMESTAMP CERES_ED_DEBIAN_DATE "%a, %d %b %Y %H:%M:%S +0000" UTC)
+configure_file(scripts/cmake/debian_changelog.in ${ceres_ed_debian}/changelog @ONLY)
+execute_process(COMMAND gzip --best --no-name --force ${ceres_ed_debian}/changelog)
+# Shared libraries are made known when all packages are in place.
+file(WRITE ${ceres_ed_debian}/library/triggers "activate-noawait ldconfig\n")
+
 # ceres_ed_add_package(COMPONENT NAME SECTION DEPENDS SUMMARY TEXT): the package NAME.
 function(ceres_ed_add_package component name section depends summary text)
   string(TOUPPER ${component} key)
   # Excluded from a plain install, which has one licence for all.
   install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name} RENAME copyright
+          COMPONENT ${component} EXCLUDE_FROM_ALL)
+  install(FILES ${ceres_ed_debian}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${name}
           COMPONENT ${component} EXCLUDE_FROM_ALL)
   set(CPACK_DEBIAN_${key}_PACKAGE_NAME ${name} PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_PACKAGE_SECTION ${section} PARENT_SCOPE)
@@ -51,6 +63,13 @@ ceres_ed_add_package(
   "${ceres_ed_text}\n
 This package has what programs and plugins are built with: headers, and
 files for CMake and pkg-config.")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
+ceres_ed_add_package(
+  doc ceres-ed-doc doc "" "embedded deformation graphs: documentation and examples"
+  "${ceres_ed_text}\n
+This package has the pages about how to use and extend it, and the examples.")
+set(CPACK_DEBIAN_DOC_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOC_PACKAGE_SHLIBDEPS OFF)
 if(CERES_ED_BUILD_APPS)
   ceres_ed_add_package(
     tools ceres-ed-tools science "${ceres_ed_same_version}" "embedded deformation graphs: programs"
@@ -68,8 +87,8 @@ if(CERES_ED_BUILD_PYTHON)
     "embedded deformation graphs: Python package"
     "${ceres_ed_text}\n
 This package has the Python module ceres_ed, which works on numpy arrays.")
-  configure_file(scripts/cmake/python_prerm.in ${PROJECT_BINARY_DIR}/debian/python/prerm @ONLY)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/python/prerm)
+  configure_file(scripts/cmake/python_prerm.in ${ceres_ed_debian}/python/prerm @ONLY)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/python/prerm)
 endif()
 if(CERES_ED_BUILD_PCL)
   ceres_ed_add_package(
@@ -78,6 +97,7 @@ if(CERES_ED_BUILD_PCL)
 With this package the programs read and write .pcd files, and C++ programs
 convert the clouds and meshes of the Point Cloud Library (which they build
 with libceres-ed-dev and libpcl-dev).")
+  set(CPACK_DEBIAN_PCL_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
 if(TARGET ceres_ed_video)
   ceres_ed_add_package(
@@ -85,6 +105,7 @@ if(TARGET ceres_ed_video)
     "${ceres_ed_text}\n
 With this package the programs read and write stereo recordings that are
 videos.")
+  set(CPACK_DEBIAN_VIDEO_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
 
 if(NOT BUILD_SHARED_LIBS)

@@ -26,7 +26,8 @@ function(check_package name depends)
     message(FATAL_ERROR "${name} depends on '${value}', expected ${depends}")
   endif()
   run(contents dpkg-deb --contents ${package})
-  foreach(file IN LISTS ARGN ITEMS "/usr/share/doc/${name}/copyright")
+  foreach(file IN LISTS ARGN ITEMS "/usr/share/doc/${name}/copyright"
+                      "/usr/share/doc/${name}/changelog.gz")
     if(NOT contents MATCHES " \\.${file}( ->[^\n]*)?(\n|$)")
       message(FATAL_ERROR "${package} has no ${file}:\n${contents}")
     endif()
@@ -52,8 +53,12 @@ check_package(
   "/usr/include/ceres_ed-${version}/cost_functions/warp.h")
 check_package(
   ceres-ed-tools "${library} \\(= ${version}\\).*libgflags" /usr/bin/ed_fit /usr/bin/ed_slam
-  /usr/bin/ceres_ed_demo /usr/share/ceres_ed/data/plane_bumps/source.ply
+  /usr/bin/ceres_ed_demo /usr/share/man/man1/ed_fit.1.gz /usr/share/man/man1/ceres_ed_demo.1.gz
+  /usr/share/bash-completion/completions/ed_slam /usr/share/ceres_ed/data/plane_bumps/source.ply
   "/usr/lib/${triplet}/cmake/ceres_ed/ceres_ed-tools-targets.cmake")
+check_package(
+  ceres-ed-doc "^$" /usr/share/doc/ceres_ed/README.md /usr/share/doc/ceres_ed/ceres_ed/solver/README.md
+  /usr/share/doc/ceres_ed/scripts/images/fit.png /usr/share/doc/ceres_ed/apps/examples/01_hello/hello.cc)
 if(python)
   check_package(python3-ceres-ed "${library} \\(= ${version}\\).*python3 \\(>= 3.*python3 \\(<< 3.*python3-numpy"
                 "/usr/lib/python3/dist-packages/ceres_ed/_core[^/]*.so"
@@ -69,6 +74,19 @@ endif()
 if(video)
   check_package(ceres-ed-video "${library} \\(= ${version}\\).*libopencv-videoio"
                 "/usr/lib/${triplet}/libceres_ed_video.so.${soversion}")
+endif()
+
+# Faults that Debian's own checker calls errors.
+find_program(LINTIAN lintian)
+if(LINTIAN)
+  file(GLOB packages ${folder}/*.deb)
+  execute_process(COMMAND ${LINTIAN} --fail-on error --display-level error --allow-root ${packages}
+                  RESULT_VARIABLE result OUTPUT_VARIABLE faults ERROR_VARIABLE faults)
+  if(result)
+    message(FATAL_ERROR "lintian says of the packages:\n${faults}")
+  endif()
+else()
+  message(STATUS "not checked by lintian, which is not installed")
 endif()
 
 # Nothing of the machine that built them, in binaries neither.
