@@ -1,16 +1,14 @@
 #include "ceres_ed/registration/fit.h"
 
 #include <ceres_ed/energy/energy_registry.h>
-#include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/geometry/surface.h>
-#include <ceres_ed/geometry/welded_mesh.h>
 #include <ceres_ed/graph/binding.h>
 #include <ceres_ed/graph/volume.h>
 #include <ceres_ed/registration/coarse_to_fine.h>
 #include <ceres_ed/registration/denoise.h>
 #include <ceres_ed/registration/evidence/measure_evidence.h>
-#include <ceres_ed/registration/finish/unfold.h>
+#include <ceres_ed/registration/finish/fit_finish.h>
 #include <ceres_ed/registration/finish/vertex_finish.h>
 #include <ceres_ed/registration/fit_progress.h>
 #include <ceres_ed/registration/fit_validation.h>
@@ -18,6 +16,7 @@
 #include <ceres_ed/registration/placement.h>
 #include <ceres_ed/registration/prepared_surface.h>
 #include <ceres_ed/registration/uncertainty/fit_uncertainty.h>
+#include <ceres_ed/registration/unit_frame.h>
 #include <ceres_ed/util/timer.h>
 
 #include <algorithm>
@@ -30,60 +29,6 @@
 namespace ceres_ed {
 namespace {
 
-PointCloud Transformed(const Similarity& pose, const PointCloud& cloud) {
-  PointCloud moved = cloud;
-  for (Eigen::Vector3d& point : moved.points) point = pose * point;
-  for (Eigen::Vector3d& normal : moved.normals) normal = pose.rotation * normal;
-  return moved;
-}
-
-// Returns unit_from_target. In the unit frame, in which the fit is solved, the rigidly placed
-// source has the diagonal 1.
-Similarity UnitFrame(const PointCloud& placed_source) {
-  const Eigen::AlignedBox3d box = BoundingBox(placed_source.points);
-  Similarity unit_from_target;
-  unit_from_target.scale = 1.0 / box.diagonal().norm();
-  unit_from_target.translation = -unit_from_target.scale * box.center();
-  return unit_from_target;
-}
-
-// Converts a graph and a state from the unit frame to the source frame. With M = unit_from_source,
-// g = M^-1 g', A = R^T A' R and t = (s R)^-1 t', which does not change E_rot.
-Warp WarpInSourceFrame(const BuiltGraph& graph,
-                       const DeformationState& state,
-                       const std::vector<Eigen::Vector3d>& source_points,
-                       const Similarity& unit_from_source,
-                       const Similarity& target_from_source) {
-  Warp warp;
-  warp.target_from_source = target_from_source;
-  warp.binding = graph.binding;
-  const Eigen::Matrix3d R = unit_from_source.rotation.toRotationMatrix();
-  for (const int point : graph.node_points) warp.graph.AddNode(source_points[point]);
-  const Similarity source_from_unit = unit_from_source.Inverse();
-  for (int j = graph.graph.num_surface_nodes(); j < graph.graph.num_nodes(); ++j) {
-    warp.graph.AddInnerNode(source_from_unit * graph.graph.position(j));
-  }
-  for (const GraphEdge& edge : graph.graph.edges()) warp.graph.AddEdge(edge);
-  warp.state.Resize(graph.graph.num_nodes());
-  for (int j = 0; j < graph.graph.num_nodes(); ++j) {
-    MutableNodeAffine(warp.state.node(j)) = R.transpose() * NodeAffine(state.node(j)) * R;
-    MutableNodeTranslation(warp.state.node(j)) =
-        R.transpose() * NodeTranslation(state.node(j)) / unit_from_source.scale;
-  }
-  return warp;
-}
-
-// Returns the motion, in the unit frame, from the place of the source to the given pose. The size
-// stays as it was placed; the centre of the source, which is the origin, moves as the poses say.
-Similarity GivenFromPlaced(const Similarity& placed,
-                           const Similarity& given,
-                           const Similarity& unit_from_target) {
-  Similarity motion = given * placed.Inverse();
-  motion = unit_from_target * motion * unit_from_target.Inverse();
-  motion.scale = 1.0;
-  return motion;
-}
-
 // Returns the part of the point-to-point share that a fit needs. Planes hold a body whose normals
 // point everywhere, and points only delay it; they do not hold a sheet within itself.
 double ShareOfPoints(const Surface& source, const Surface& target) {
@@ -92,18 +37,6 @@ double ShareOfPoints(const Surface& source, const Surface& target) {
   constexpr double kShareOfHeld = 0.4;
   const double spread = std::min(LeastNormalSpread(source), LeastNormalSpread(target));
   return 1.0 - (1.0 - kShareOfHeld) * std::min(1.0, spread / kHeld);
-}
-
-std::vector<Correspondence> InUnitFrame(const std::vector<Landmark>& constraints,
-                                        const Similarity& unit_from_target) {
-  std::vector<Correspondence> correspondences;
-  for (const Landmark& constraint : constraints) {
-    Correspondence correspondence;
-    correspondence.point = constraint.point;
-    correspondence.target = unit_from_target * constraint.position;
-    correspondences.push_back(correspondence);
-  }
-  return correspondences;
 }
 
 // One fit: the steps of Fit() and the data that they share.
@@ -135,14 +68,6 @@ class Fitter {
   // Returns the options in the unit frame. `must_stop`: no stage begins any more.
   FitOptions UnitOptions(const Surface& source, const Surface* target, bool must_stop) const;
   void Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state);
-  // Moves every vertex of `fitted` (the source as warped by the nodes) onto the target, and stores
-  // the displacements as the finish of the warp.
-  void FinishEveryVertex(const UnitFit& fit, const DeformationState& state, PointCloud* fitted);
-  // Lays folded faces of `fitted` flat, and adds the displacements to the finish of the warp.
-  void Unfold(const UnitFit& fit, PointCloud* fitted);
-  // Adds displacements (one per point, unit frame) to the finish of the warp, and applies the warp
-  // again.
-  void AddToFinish(const std::vector<Eigen::Vector3d>& displacements, PointCloud* fitted);
   void WarnAboutReflections(const DeformationState& state);
   // Measures what the result shows about its own quality.
   void MeasureQuality(const BuiltGraph& graph);
@@ -161,8 +86,6 @@ class Fitter {
   std::unique_ptr<const Surface> source_;
   std::unique_ptr<const Surface> target_;
   double noise_ = 0.0;
-  // Whether faces of the result are known to be folded, or not known not to be.
-  bool has_folds_ = true;
   FitResult result_;
 };
 
@@ -240,97 +163,6 @@ FitOptions Fitter::UnitOptions(const Surface& source, const Surface* target, boo
   return options;
 }
 
-void Fitter::FinishEveryVertex(const UnitFit& fit,
-                               const DeformationState& state,
-                               PointCloud* fitted) {
-  const bool is_whole =
-      result_.status == SolveStatus::kConverged || result_.status == SolveStatus::kMaxIterations;
-  if (!options_.finish || fit.target == nullptr || !is_whole || result_.rigid_only) return;
-  if (MustEnd(fit, &result_)) return;
-  const Timer timer;
-  const PointCloud moved = Transformed(unit_from_target_, *fitted);
-  std::vector<Eigen::Vector3d> normals;
-  WarpNormals(state, result_.skinning, fit.source->cloud().normals, options_.num_threads, &normals);
-  FinishInput input;
-  input.source = fit.source;
-  input.points = &moved.points;
-  input.normals = &normals;
-  input.target = fit.target;
-  input.noise = fit.noise;
-  input.landmarks = fit.landmarks;
-  input.fixed = fit.fixed;
-  input.matching = fit.options->matching;
-  if (!fit.options->extra_energies.empty()) input.fit = &fit;
-  input.should_stop = [this, &fit] { return MustEnd(fit, &result_); };
-  input.on_progress = [this](double part) { Report("finish", part); };
-  const FinishResult finish = FinishVertices(input, options_.finish_options);
-  if (finish.moved) {
-    std::vector<Eigen::Vector3d> displacements = finish.points;
-    for (std::size_t p = 0; p < moved.size(); ++p) displacements[p] -= moved.points[p];
-    AddToFinish(displacements, fitted);
-    result_.matches.rms_plane = finish.rms_plane;
-    result_.matches.rms_point = finish.rms_point;
-  }
-  result_.times.finish = timer.Seconds();
-}
-
-void Fitter::AddToFinish(const std::vector<Eigen::Vector3d>& displacements, PointCloud* fitted) {
-  const Similarity source_from_unit = (unit_from_target_ * result_.rigid).Inverse();
-  VertexField& finish = result_.warp.finish;
-  finish.points = input_.source.points;
-  finish.displacements.resize(displacements.size(), Eigen::Vector3d::Zero());
-  for (std::size_t p = 0; p < displacements.size(); ++p) {
-    if (displacements[p].isZero(0.0)) continue;
-    finish.displacements[p] +=
-        source_from_unit.scale * (source_from_unit.rotation * displacements[p]);
-  }
-  *fitted = input_.source;
-  const Status applied = ApplyWarp(result_.warp, result_.skinning, fitted, options_.num_threads);
-  CHECK(applied.ok()) << applied.message();
-}
-
-void Fitter::Unfold(const UnitFit& fit, PointCloud* fitted) {
-  if (!options_.unfold || !fitted->HasTriangles() || MustEnd(fit, &result_)) return;
-  Report("unfold", 0.0);
-  const Timer timer;
-  const WeldedMesh mesh = BuildWeldedMesh(fit.source->cloud(), fit.source->topology());
-  UnfoldInput input;
-  input.mesh = &mesh;
-  input.target = fit.target;
-  input.should_stop = [this, &fit] { return MustEnd(fit, &result_); };
-  for (const auto* constraints : {&fit.landmarks, &fit.fixed}) {
-    for (const Correspondence& held : *constraints) {
-      input.held.push_back(mesh.vertex_of_point[held.point]);
-    }
-  }
-  std::vector<Eigen::Vector3d> rest;
-  std::vector<Eigen::Vector3d> before;
-  for (const int point : mesh.point_of_vertex) {
-    rest.push_back(fit.source->cloud().points[point]);
-    before.push_back(unit_from_target_ * fitted->points[point]);
-  }
-  input.rest = &rest;
-  std::vector<Eigen::Vector3d> after = before;
-  const UnfoldResult unfold = UnfoldFaces(input, &after);
-  result_.unfolded = unfold.before - unfold.after;
-  if (result_.unfolded > 0) {
-    std::vector<Eigen::Vector3d> displacements;
-    for (const int v : mesh.vertex_of_point) displacements.push_back(after[v] - before[v]);
-    AddToFinish(displacements, fitted);
-  }
-  if (!mesh.triangles.empty()) {
-    result_.evidence.folded =
-        static_cast<double>(unfold.after) / static_cast<double>(mesh.triangles.size());
-  }
-  has_folds_ = unfold.after > 0;
-  if (has_folds_) {
-    result_.warnings.push_back(std::to_string(unfold.after) + " of " +
-                               std::to_string(mesh.triangles.size()) +
-                               " faces stay folded over or squeezed flat");
-  }
-  result_.times.finish += timer.Seconds();
-}
-
 void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const DeformationState& state) {
   result_.warp = WarpInSourceFrame(
       graph, state, input_.source.points, unit_from_target_ * result_.rigid, result_.rigid);
@@ -345,10 +177,11 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
   PointCloud fitted = input_.source;
   const Status applied = ApplyWarp(result_.warp, result_.skinning, &fitted, options_.num_threads);
   CHECK(applied.ok()) << applied.message();
+  FitFinish finish(fit, input_.source, unit_from_target_, &result_);
   const auto finite = [](const Eigen::Vector3d& point) { return point.allFinite(); };
   if (std::all_of(fitted.points.begin(), fitted.points.end(), finite)) {
-    FinishEveryVertex(fit, state, &fitted);
-    Unfold(fit, &fitted);
+    finish.FinishEveryVertex(state, &fitted);
+    finish.Unfold(&fitted);
   }
   result_.points = std::move(fitted.points);
   result_.normals = std::move(fitted.normals);
@@ -362,7 +195,7 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
                  (result_.points[point] - result_.rigid * input_.source.points[point]).norm());
   }
   // A node alone does not fold a surface whose faces say otherwise.
-  if (!input_.source.HasTriangles() || has_folds_) WarnAboutReflections(state);
+  if (!input_.source.HasTriangles() || finish.has_folds()) WarnAboutReflections(state);
   result_.matches.rms_plane /= unit_from_target_.scale;
   result_.matches.rms_point /= unit_from_target_.scale;
   result_.matches.robust_distance /= unit_from_target_.scale;

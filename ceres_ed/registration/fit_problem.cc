@@ -67,6 +67,15 @@ TermRule RuleOfUser(EnergyKind kind) {
   return rule;
 }
 
+StatusOr<std::unique_ptr<FitProblem>> FitProblem::Create(const UnitFit& fit,
+                                                         const BuiltGraph& graph,
+                                                         bool is_last) {
+  auto problem = std::make_unique<FitProblem>(graph, fit.source->cloud(), is_last);
+  Status status = problem->AddEnergies(*fit.options, *fit.registry, fit.landmarks, fit.fixed);
+  if (!status.ok()) return status;
+  return problem;
+}
+
 FitProblem::FitProblem(const BuiltGraph& graph, const PointCloud& source, bool is_last)
     : graph_(graph),
       source_(source),

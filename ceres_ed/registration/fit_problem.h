@@ -7,7 +7,10 @@
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/problem/term_set.h>
 #include <ceres_ed/registration/fit_types.h>
+#include <ceres_ed/registration/unit_fit.h>
+#include <ceres_ed/util/status.h>
 
+#include <memory>
 #include <vector>
 
 namespace ceres_ed {
@@ -22,6 +25,12 @@ TermRule RuleOfUser(EnergyKind kind);
 // The graph and the source must outlive this object.
 class FitProblem {
  public:
+  // Returns the problem of `fit` on `graph` with all its energies. It is an error if an energy or a
+  // parameter is unknown.
+  static StatusOr<std::unique_ptr<FitProblem>> Create(const UnitFit& fit,
+                                                      const BuiltGraph& graph,
+                                                      bool is_last);
+
   // `is_last` says whether `graph` is the finest one of the fit.
   FitProblem(const BuiltGraph& graph, const PointCloud& source, bool is_last);
 

@@ -128,6 +128,10 @@ struct FitResult {
 
   // Returns whether the result can be used, that is, whether the fit has not failed.
   bool IsUsable() const { return status != SolveStatus::kFailed; }
+  // Returns whether the fit has failed or was stopped before its end.
+  bool EndedEarly() const {
+    return status != SolveStatus::kConverged && status != SolveStatus::kMaxIterations;
+  }
 };
 
 }  // namespace ceres_ed
