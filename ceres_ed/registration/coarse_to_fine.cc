@@ -30,9 +30,6 @@ Status CoarseToFine::FollowFinest(Attempt* attempt,
   *problem = *std::move(made);
   const ResolutionPlan plan = attempt->hypothesis.Apply(plans_[last], /*is_finest=*/true);
   RunNonrigidLoop(fit_, graph, plan, problem->get(), &attempt->state, result);
-  if (fit_.options->covariance && !result->EndedEarly()) {
-    MeasureUncertainty(fit_, graph, attempt->state, problem->get(), result);
-  }
   return Status::Ok();
 }
 
@@ -90,9 +87,6 @@ Status CoarseToFine::Run(FitResult* result) {
     if (!problem.ok()) return problem.status();
     problem_ = *std::move(problem);
     RunNonrigidLoop(fit_, graph(), plans_[graph_], problem_.get(), &state_, result);
-    if (fit_.options->covariance && !result->EndedEarly()) {
-      MeasureUncertainty(fit_, graph(), state_, problem_.get(), result);
-    }
     Conclude(result);
     return Status::Ok();
   }
@@ -115,6 +109,8 @@ void CoarseToFine::Conclude(FitResult* result) {
     if (fit_.options->covariance) DropUncertainty("the deformation was left out", result);
     state_ = DeformationState(graph().graph.num_nodes());
     result->final_energy = result->initial_energy;
+  } else if (fit_.options->covariance && !result->EndedEarly()) {
+    MeasureUncertainty(fit_, graph(), state_, problem_.get(), result);
   }
 }
 
