@@ -54,5 +54,18 @@ TEST(IntrinsicStart, LeavesTheSourceAtRestIfThereIsNone) {
   EXPECT_TRUE(result->IsUsable());
 }
 
+TEST(IntrinsicStart, LeavesTheSourceAtRestIfTheTargetIsAViewOfIt) {
+  FitInput input;
+  input.source = MakeWalker(2000);
+  input.target = MoveWalker({{0.2, -0.2, 0.1, 0.0}, {}, 0.2}, MakeWalker(2600));
+  // A third of a surface has other harmonics than the whole, so there are no matches.
+  input.target.triangles.resize(input.target.triangles.size() / 3);
+  FitOptions options;
+  options.hypotheses = "intrinsic";
+  const StatusOr<FitResult> result = Fit(input, options, BuiltinEnergies());
+  ASSERT_TRUE(result.ok()) << result.status().message();
+  EXPECT_TRUE(result->IsUsable()) << result->message;
+}
+
 }  // namespace
 }  // namespace ceres_ed

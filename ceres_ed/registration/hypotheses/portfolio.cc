@@ -134,6 +134,7 @@ StatusOr<std::vector<Attempt>> Portfolio::Try(FitResult* result) const {
     rest.hypothesis = hypotheses.front();
     rest.state = DeformationState(graphs_[0].graph.num_nodes());
     attempts.push_back(std::move(rest));
+    if (!MustEnd(fit_, result)) result->status = SolveStatus::kMaxIterations;
   }
   Rank(&attempts, result);
   return attempts;
