@@ -137,7 +137,22 @@ TEST(RigidRegistration, PutsAWavySheetInItsPlace) {
   EXPECT_LT(LargestGap(truth, result.target_from_source, sheet), 0.2);
 }
 
-// Distances do not determine the position of a flat sheet in its plane, so it keeps it.
+// Distances across a flat sheet do not determine its place within its plane, but its borders do.
+TEST(RigidRegistration, LaysTheBordersOfAFlatSheetOnEachOther) {
+  const auto make = [](int columns, int rows) {
+    PointCloud sheet = MakeGridMesh(columns, rows);
+    for (Eigen::Vector3d& point : sheet.points) {
+      point = {point.x() / (columns - 1.0), 0.8 * point.y() / (rows - 1.0), 0.0};
+    }
+    return sheet;
+  };
+  const PointCloud sheet = make(60, 50);
+  const Similarity truth = MakePose(5.0, {0.0, 0.0, 1.0}, {0.05, -0.01, 0.0});
+  const RigidResult result =
+      AlignRigid(Surface(sheet), Surface(Moved(truth, make(55, 47))), Similarity(), RigidOptions());
+  EXPECT_LT(LargestGap(truth, result.target_from_source, sheet), 0.5);
+}
+
 // From any other unit, as long as the scale is asked for.
 TEST(RigidRegistration, RecoversAnyScale) {
   const PointCloud body = MakeSyntheticShape(SyntheticShape::kDolphin, 1500, 1.0);
@@ -161,6 +176,7 @@ TEST(RigidRegistration, EndsWhereTheUnitsDiffer) {
   }
 }
 
+// Distances do not determine the position of a flat sheet within a larger one, so it keeps it.
 TEST(RigidRegistration, LeavesWhatNothingDetermines) {
   const PointCloud sheet = MakeSyntheticShape(SyntheticShape::kPlane, 900, 0.2);
   Eigen::Vector3d center = Eigen::Vector3d::Zero();

@@ -26,6 +26,10 @@ constexpr double kLeastExplained = 0.1;
 constexpr double kNoCurvature = 1e-5;
 // Distances below this fraction of the score's width are rounding errors.
 constexpr double kNegligible = 1e-4;
+// The width of the loss is twice the robust standard deviation of the distances, and at least this
+// fraction of the score's width.
+constexpr double kWidthPerMedian = 2.0 * kDeviationPerMedian;
+constexpr double kLeastWidth = 1e-3;
 
 // The angle between normals at which a point counts half as unmatched.
 constexpr double kAngleWidth = 30.0 * M_PI / 180.0;
@@ -44,10 +48,14 @@ struct RigidAligner::PlanePair {
   // The cosine of the angle between the normals.
   double cosine = -1.0;
   bool agrees = false;
+  // Whether the partner lies on the border of its surface, and whether the sample does, too.
   bool on_border = false;
+  bool joins_borders = false;
   bool found = false;
 
   bool IsUsable() const { return found && agrees && !on_border; }
+  // Returns whether a border lies beyond a border.
+  bool IsBorderPair() const { return found && agrees && joins_borders; }
 };
 
 // The normal equations of a step. The right sides of the two kinds of distance are kept separately.
@@ -114,6 +122,7 @@ std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose,
       pair.target = (*target_.points)[hit.index];
       pair.normal = (*target_.normals)[hit.index];
       pair.on_border = (*target_.is_border)[hit.index] != 0;
+      pair.joins_borders = pair.on_border && (*source_.is_border)[point] != 0;
       pair.cosine = agreement((*source_.normals)[point], pair.normal);
     } else {
       const int point = target_.samples[i - num_forward];
@@ -125,6 +134,7 @@ std::vector<RigidAligner::PlanePair> RigidAligner::Pairs(const Similarity& pose,
       (*nearest)[i] = hit.index;
       pair.moved = pose * (*source_.points)[hit.index];
       pair.on_border = (*source_.is_border)[hit.index] != 0;
+      pair.joins_borders = pair.on_border && (*target_.is_border)[point] != 0;
       pair.cosine = agreement((*source_.normals)[hit.index], pair.normal);
     }
     pair.squared_distance = (pair.moved - pair.target).squaredNorm();
@@ -208,16 +218,44 @@ bool RigidAligner::Collect(const std::vector<PlanePair>& pairs,
   return sums->spread > 0.0;
 }
 
+// Adds the point-to-point distances of the pairs that join borders, about the same center. The
+// width of their loss follows from their own spread, because borders may lie far apart where the
+// surfaces already lie on each other.
+void RigidAligner::AddBorders(const std::vector<PlanePair>& pairs,
+                              const Eigen::Vector3d& center,
+                              StepSums* sums) const {
+  std::vector<double> squared;
+  for (const PlanePair& pair : pairs) {
+    if (pair.IsBorderPair()) squared.push_back(pair.squared_distance);
+  }
+  if (squared.empty()) return;
+  const double distance = std::sqrt(Median(std::move(squared)));
+  const double sigma = std::max(options_.width, kWidthPerMedian * distance);
+  for (const PlanePair& pair : pairs) {
+    if (!pair.IsBorderPair()) continue;
+    const double ratio = sigma * sigma / (sigma * sigma + pair.squared_distance);
+    const Eigen::Vector3d arm = pair.moved - center;
+    const Eigen::Vector3d gap = pair.moved - pair.target;
+    for (int axis = 0; axis < 3; ++axis) {
+      Vector7 J;
+      J << arm.cross(Eigen::Vector3d::Unit(axis)), Eigen::Vector3d::Unit(axis), arm[axis];
+      sums->H += ratio * ratio * J * J.transpose();
+      sums->plane_b -= ratio * ratio * gap[axis] * J;
+    }
+  }
+}
+
 // Does one Gauss-Newton step for the reweighted sum of point-to-plane and, with a small share,
 // point-to-point distances. Returns false if the step cannot be computed.
 bool RigidAligner::Step(const std::vector<PlanePair>& pairs,
                         double sigma,
                         StepDirections directions,
                         Similarity* pose) const {
-  const double point_share = directions == StepDirections::kAll ? 0.0 : kPointShare;
+  const double point_share = directions == StepDirections::kDetermined ? kPointShare : 0.0;
   Eigen::Vector3d center;
   StepSums sums;
   if (!Collect(pairs, sigma, point_share, &center, &sums)) return false;
+  if (directions == StepDirections::kAllWithBorders) AddBorders(pairs, center, &sums);
   const Vector7 delta = SolveObserved(sums, directions);
   if (!delta.allFinite()) return false;
   const double angle = delta.head<3>().norm();
@@ -253,7 +291,7 @@ RigidAligner::Vector7 RigidAligner::SolveObserved(const StepSums& sums,
   const double unexplained =
       sums.plane_energy + sums.weight * std::pow(kNegligible * options_.width, 2);
   const double least =
-      directions == StepDirections::kAll ? kNoCurvature : kPointShare + kLeastCurvature;
+      directions == StepDirections::kDetermined ? kPointShare + kLeastCurvature : kNoCurvature;
   for (int i = 0; i < size; ++i) {
     const double curvature = eigen.eigenvalues()[i];
     const bool curved = curvature > least * sums.weight;
@@ -281,7 +319,7 @@ double RigidAligner::LeastCurvature(const Similarity& pose) const {
 
 Similarity RigidAligner::Refine(Similarity pose, int iterations, StepDirections directions) const {
   constexpr double kConverged = 1e-7;
-  const double floor = 1e-3 * options_.width;
+  const double floor = kLeastWidth * options_.width;
   std::vector<int> nearest;
   for (int i = 0; i < iterations; ++i) {
     const std::vector<PlanePair> pairs = Pairs(pose, &nearest);
@@ -291,8 +329,7 @@ Similarity RigidAligner::Refine(Similarity pose, int iterations, StepDirections 
     }
     if (squared.empty()) return pose;
     const double distance = std::sqrt(Median(std::move(squared)));
-    // The width of the loss is twice the robust standard deviation of the distances.
-    const double sigma = std::max(floor, 2.0 * kDeviationPerMedian * distance);
+    const double sigma = std::max(floor, kWidthPerMedian * distance);
     Similarity before = pose;
     if (!Step(pairs, sigma, directions, &pose)) return before;
     const Similarity change = pose * before.Inverse();

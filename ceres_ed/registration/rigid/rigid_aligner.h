@@ -66,6 +66,9 @@ enum class StepDirections {
   kDetermined,
   // All in which the pairs have any curvature, without point-to-point distances.
   kAll,
+  // The same, and what sticks out is pulled in: where a border lies beyond the border of the other
+  // surface, the two are laid on each other.
+  kAllWithBorders,
 };
 
 // Aligns two surfaces and rates poses.
@@ -106,6 +109,9 @@ class RigidAligner {
                double point_share,
                Eigen::Vector3d* center,
                StepSums* sums) const;
+  void AddBorders(const std::vector<PlanePair>& pairs,
+                  const Eigen::Vector3d& center,
+                  StepSums* sums) const;
   bool Step(const std::vector<PlanePair>& pairs,
             double sigma,
             StepDirections directions,

@@ -221,7 +221,8 @@ ScoredPose StartFinder::Find(int* starts_tried, std::vector<ScoredPose>* refined
 // Returns `pose`, or the pose to which it slides along itself where this explains the surfaces
 // better. Directions with little curvature are held during the search, because a surface that also
 // deforms slides along them for nothing. A body that does not deform has its place there, too: a
-// stick with square ends along its axis, a nearly flat sheet within its plane.
+// stick with square ends along its axis, a nearly flat sheet within its plane. The borders of open
+// surfaces, which usually mean nothing because a view may end anywhere, may say where it is, too.
 Similarity SlideIfBetter(const Similarity& pose,
                          const Surface& source,
                          const Surface& target,
@@ -230,9 +231,16 @@ Similarity SlideIfBetter(const Similarity& pose,
   const RigidAligner aligner(MakeRigidSide(source, kSlideSamples),
                              MakeRigidSide(target, kSlideSamples),
                              AlignerOptions(source, target, options, reversed));
-  const Similarity slid = aligner.Refine(pose, kSlideIterations, StepDirections::kAll);
-  const double given = aligner.Score(pose).Total();
-  return aligner.Score(slid).Total() < kSlidePreference * given ? slid : pose;
+  Similarity best = pose;
+  double least = kSlidePreference * aligner.Score(pose).Total();
+  for (const auto directions : {StepDirections::kAll, StepDirections::kAllWithBorders}) {
+    const Similarity slid = aligner.Refine(best, kSlideIterations, directions);
+    const double score = aligner.Score(slid).Total();
+    if (!(score < least)) continue;
+    best = slid;
+    least = kSlidePreference * score;
+  }
+  return best;
 }
 
 // Returns the score of the best one of the `refined` poses that differ from `best` (that move the
