@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/coarse_to_fine.h"
 
 #include <ceres_ed/registration/hypotheses/explanation.h>
+#include <ceres_ed/registration/hypotheses/model_selection.h>
 #include <ceres_ed/registration/hypotheses/rigid_check.h>
 #include <ceres_ed/registration/uncertainty/fit_uncertainty.h>
 
@@ -112,6 +113,11 @@ void CoarseToFine::Conclude(FitResult* result) {
   } else if (fit_.options->covariance && !result->EndedEarly()) {
     MeasureUncertainty(fit_, graph(), state_, problem_.get(), result);
   }
+  if (result->rigid_only || result->EndedEarly()) return;
+  std::optional<DeformationState> rigid = RigidModel(fit_, graph(), state_);
+  if (!rigid) return;
+  state_ = *std::move(rigid);
+  result->rigid_suffices = true;
 }
 
 }  // namespace ceres_ed

@@ -41,8 +41,9 @@ class CoarseToFine {
                       FitResult* result) const;
   // Makes the state of `attempt` that of the fit.
   void Take(Attempt attempt, FitResult* result);
-  // Returns to the rigid placement, with a warning, if the deformation is worse than that. Measures
-  // how certain the deformation is, if this is asked for.
+  // Returns to the rigid placement, with a warning, if the deformation is worse than that, and
+  // takes a rigid motion if the surfaces do not show more. Measures how certain the deformation is,
+  // if this is asked for.
   void Conclude(FitResult* result);
 
   UnitFit fit_;

@@ -113,6 +113,9 @@ struct FitResult {
   double max_fixed_error = 0.0;
   // Whether the deformation was discarded because it explained less than the rigid placement.
   bool rigid_only = false;
+  // Whether the nodes have one rigid motion because the surfaces show no deformation beyond their
+  // noise (hypotheses/model_selection.h).
+  bool rigid_suffices = false;
   // The name of the hypothesis that the fit went on with (hypotheses/hypothesis.h); empty if there
   // was only one graph.
   std::string hypothesis;

@@ -1,6 +1,7 @@
 // What a fit reports while it runs.
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/registration/fit.h>
+#include <ceres_ed/simulation/deformations.h>
 #include <ceres_ed/simulation/shapes.h>
 
 #include <algorithm>
@@ -13,10 +14,16 @@
 namespace ceres_ed {
 namespace {
 
+// Returns a target that is not a rigid copy of the source, so that there is a finish.
+PointCloud BentKidney() {
+  constexpr SyntheticShape kShape = SyntheticShape::kKidney;
+  return DeformSyntheticShape(kShape, 1.0, 0.3, MakeSyntheticShape(kShape, 600, 1.0));
+}
+
 std::vector<std::string> StagesOf(FitOptions options) {
   FitInput input;
   input.source = MakeSyntheticShape(SyntheticShape::kKidney, 500, 1.0);
-  input.target = MakeSyntheticShape(SyntheticShape::kKidney, 600, 1.0);
+  input.target = BentKidney();
   std::vector<std::string> stages;
   options.on_progress = [&stages](const FitProgress& progress) {
     stages.push_back(progress.stage);
@@ -35,7 +42,7 @@ TEST(FitProgress, GoesThroughTheStagesInTheirOrder) {
 TEST(FitProgress, NeverGoesBack) {
   FitInput input;
   input.source = MakeSyntheticShape(SyntheticShape::kKidney, 500, 1.0);
-  input.target = MakeSyntheticShape(SyntheticShape::kKidney, 600, 1.0);
+  input.target = BentKidney();
   FitOptions options;
   std::vector<double> fractions;
   options.on_progress = [&fractions](const FitProgress& progress) {
@@ -60,7 +67,7 @@ TEST(FitProgress, HasNoRigidStageWhereTheSourceIsNotPlaced) {
 TEST(FitProgress, MayBeStoppedInEachStage) {
   FitInput input;
   input.source = MakeSyntheticShape(SyntheticShape::kKidney, 500, 1.0);
-  input.target = MakeSyntheticShape(SyntheticShape::kKidney, 600, 1.0);
+  input.target = BentKidney();
   for (const std::string last : {"rigid", "graph", "fit", "finish"}) {
     FitOptions options;
     bool stop = false;
@@ -83,7 +90,7 @@ TEST(FitProgress, MayBeStoppedInEachStage) {
 FitResult StoppedAt(int first, bool stays, int* polls) {
   FitInput input;
   input.source = MakeSyntheticShape(SyntheticShape::kKidney, 500, 1.0);
-  input.target = MakeSyntheticShape(SyntheticShape::kKidney, 600, 1.0);
+  input.target = BentKidney();
   for (std::size_t t = 0; t < input.target.triangles.size(); t += 5) {
     std::swap(input.target.triangles[t][0], input.target.triangles[t][1]);
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
@@ -63,9 +64,10 @@ FitOptions StiffOptions() {
   return options;
 }
 
-Motion FitMotion(const FitInput& input, FitOptions options, bool photometric) {
+// Fits with the photometric energy of this weight, or without any energy of a user.
+Motion FitMotion(const FitInput& input, FitOptions options, std::optional<double> weight) {
   const EnergyRegistry registry = BuiltinEnergies();
-  if (photometric) options.extra_energies = {{"photometric", 1.0, {}, {}}};
+  if (weight) options.extra_energies = {{"photometric", *weight, {}, {}}};
   const StatusOr<FitResult> result = Fit(input, options, registry);
   EXPECT_TRUE(result.ok() && result->IsUsable());
   Motion motion;
@@ -83,10 +85,10 @@ constexpr double kTolerance = kSpacing * kSpacing * kWaveNumber / 8.0 + 2e-4 * 1
 
 TEST(PhotometricFit, RecoversASlideThatDistancesDoNotSee) {
   const FitInput input = SlidSheet();
-  const Motion with = FitMotion(input, StiffOptions(), true);
+  const Motion with = FitMotion(input, StiffOptions(), 1.0);
   EXPECT_LT((with.mean - kSlide).norm(), kTolerance);
   EXPECT_LT(with.largest_error, kTolerance);
-  const Motion without = FitMotion(input, StiffOptions(), false);
+  const Motion without = FitMotion(input, StiffOptions(), std::nullopt);
   EXPECT_GT((without.mean - kSlide).norm(), 0.9 * kSlide.norm());
 }
 
@@ -98,9 +100,9 @@ TEST(PhotometricFit, DoesSoOnBarePoints) {
   input.target.triangles.clear();
   FitOptions options = StiffOptions();
   options.matching.max_distance = 2.0 * kSpacing;
-  const Motion with = FitMotion(input, options, true);
+  const Motion with = FitMotion(input, options, 1.0);
   EXPECT_LT((with.mean - kSlide).norm(), kTolerance);
-  const Motion without = FitMotion(input, options, false);
+  const Motion without = FitMotion(input, options, std::nullopt);
   EXPECT_GT((without.mean - kSlide).norm(), 0.9 * kSlide.norm());
 }
 
@@ -108,15 +110,15 @@ TEST(PhotometricFit, DoesSoOnBarePoints) {
 TEST(PhotometricFit, ComesNearTheSlideAsFitsAreByDefault) {
   FitOptions options;
   options.finish = false;
-  const Motion with = FitMotion(SlidSheet(), options, true);
+  const Motion with = FitMotion(SlidSheet(), options, 1.0);
   EXPECT_LT((with.mean - kSlide).norm(), 0.1 * kSlide.norm());
 }
 
 TEST(PhotometricFit, ChangesNothingWhereOneCloudHasNoBrightness) {
   FitInput input = SlidSheet();
   input.target.intensities.clear();
-  const Motion with = FitMotion(input, StiffOptions(), true);
-  const Motion without = FitMotion(input, StiffOptions(), false);
+  const Motion with = FitMotion(input, StiffOptions(), 1.0);
+  const Motion without = FitMotion(input, StiffOptions(), 0.0);
   EXPECT_EQ(with.mean, without.mean);
 }
 

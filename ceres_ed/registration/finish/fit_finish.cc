@@ -24,7 +24,8 @@ void FitFinish::Report(const char* stage, double part) const {
 void FitFinish::FinishEveryVertex(const DeformationState& state, PointCloud* fitted) {
   const bool is_whole =
       result_->status == SolveStatus::kConverged || result_->status == SolveStatus::kMaxIterations;
-  if (!fit_.options->finish || fit_.target == nullptr || !is_whole || result_->rigid_only) return;
+  if (!fit_.options->finish || fit_.target == nullptr || !is_whole) return;
+  if (result_->rigid_only || result_->rigid_suffices) return;
   if (MustEnd(fit_, result_)) return;
   const Timer timer;
   const PointCloud moved = Transformed(unit_from_target_, *fitted);
