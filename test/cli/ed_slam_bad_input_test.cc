@@ -141,8 +141,16 @@ TEST_F(EdSlamBadInputTest, WarnsOfDepthInTheWrongUnit) {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.err, HasSubstr("warning: "));
     EXPECT_THAT(result.err, HasSubstr(word));
+    EXPECT_THAT(result.err, HasSubstr("With depth_units_per_metre=1000 (millimetres) it would be"));
     EXPECT_EQ(Report()["warnings"].size(), 1u);
   }
+}
+
+TEST_F(EdSlamBadInputTest, WarnsOfTheUnitAtTheFirstFrameWithDepth) {
+  WriteBytes(Sequence() + "/camera.txt", "90 90 47.5 35.5 96 72 40\n");
+  const DepthImage none(BumpyCamera().width, BumpyCamera().height, 0.0f);
+  ASSERT_TRUE(WriteDepthImage(DepthPath(0), none, 1000.0).ok());
+  EXPECT_THAT(Run("out").err, HasSubstr("depth_units_per_metre=1000"));
 }
 
 TEST_F(EdSlamBadInputTest, GivenCamerasNeedPoses) {

@@ -17,6 +17,7 @@ using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 
 class LoadedFrames : public NativeSequenceTest {};
 
@@ -201,11 +202,34 @@ TEST(DepthRange, WarnsOutsideOfAMillimetreToAHundredMetres) {
   EXPECT_EQ(DepthRangeWarning(DepthImage(2, 2, 99.9F), 1000.0), "");
   EXPECT_EQ(DepthRangeWarning(DepthImage(2, 2, 0.0005F), 1e7),
             "the scene is 0.0005 m away, nearer than 1 mm: is the depth really stored as 1e+07 "
-            "units per metre?");
-  EXPECT_EQ(
-      DepthRangeWarning(DepthImage(2, 2, 300.0F), 1.0),
-      "the scene is 300 m away, farther than 100 m: is the depth really stored as 1 units per "
-      "metre?");
+            "units per metre? With depth_units_per_metre=1000 (millimetres) it would be 5 m away.");
+  EXPECT_EQ(DepthRangeWarning(DepthImage(2, 2, 300.0F), 1.0),
+            "the scene is 300 m away, farther than 100 m: is the depth really stored as 1 units "
+            "per metre? With depth_units_per_metre=1000 (millimetres) it would be 0.3 m away.");
+}
+
+TEST(DepthRange, ProposesTheUnitThatPlacesTheSceneBeforeACamera) {
+  const auto proposed = [](float metres, double units) {
+    return DepthRangeWarning(DepthImage(2, 2, metres), units);
+  };
+  // Millimetres that were declared as micrometres, metres as millimetres, micrometres as metres.
+  EXPECT_THAT(proposed(80e-6F, 1e6), HasSubstr("depth_units_per_metre=1000 (millimetres)"));
+  EXPECT_THAT(proposed(0.5e-3F, 1e3), HasSubstr("depth_units_per_metre=1 (metres)"));
+  EXPECT_THAT(proposed(80e3F, 1.0), HasSubstr("depth_units_per_metre=1e+06 (micrometres)"));
+  // A scene of kilometres in no unit.
+  EXPECT_THAT(proposed(3e9F, 1.0), Not(HasSubstr("With")));
+}
+
+TEST(DepthRange, WarnsOfWholeNumbersOfACoarseUnit) {
+  DepthImage depth(2, 1, 0.0F);
+  depth.pixels() = {80.0F, 79.0F};
+  EXPECT_EQ(DepthRangeWarning(depth, 1.0),
+            "the scene is 80 m away and measured in steps of 1 m, coarser than depth cameras have: "
+            "is the depth really stored as 1 units per metre? With depth_units_per_metre=1000 "
+            "(millimetres) it would be 0.08 m away.");
+  EXPECT_EQ(DepthRangeWarning(depth, 1000.0), "");
+  depth.pixels() = {80.5F, 79.0F};
+  EXPECT_EQ(DepthRangeWarning(depth, 1.0), "");
 }
 
 TEST(DepthRange, CountsMeasuredPixelsOnly) {
@@ -214,7 +238,7 @@ TEST(DepthRange, CountsMeasuredPixelsOnly) {
   EXPECT_EQ(DepthRangeWarning(DepthImage(), 1.0), "");
   depth.pixels() = {0.0F, 0.0F, 0.0F, 200.0F, 0.0F};
   EXPECT_NE(DepthRangeWarning(depth, 1.0), "");
-  depth.pixels() = {200.0F, 200.0F, 2.0F, 2.0F, 2.0F};
+  depth.pixels() = {200.0F, 200.0F, 2.5F, 2.5F, 2.5F};
   EXPECT_EQ(DepthRangeWarning(depth, 1.0), "");
 }
 

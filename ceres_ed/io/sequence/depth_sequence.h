@@ -257,13 +257,15 @@ class DepthSequence {
 StatusOr<std::unique_ptr<DepthSequence>> OpenSequence(const std::string& directory,
                                                       const SequenceOptions& options = {});
 
-// Returns a sentence if the median of the measured depth is less than 1 mm or more than 100 m, as
-// happens if the unit of depth is wrong by a factor of 1000. Otherwise, or if there is no depth,
-// returns an empty string. `depth` is in metres. `depth_units_per_metre` is the number with which
-// it was read; the sentence names it.
+// Returns a sentence if the unit of depth seems to be wrong: the median of the measured depth is
+// less than 1 mm or more than 100 m, or all depths are whole numbers of units of more than 2 cm
+// (a body 80 mm away whose millimetres are read as metres). The sentence names the unit that would
+// place the scene at 2 cm to 10 m, if there is one. Otherwise, or if there is no depth, returns an
+// empty string. `depth` is in metres. `depth_units_per_metre` is the number with which it was read.
 std::string DepthRangeWarning(const DepthImage& depth, double depth_units_per_metre);
 
-// Does the same for depth that was found with two cameras that are `baseline` metres apart.
+// Returns a sentence about such a median of depth that was found with two cameras that are
+// `baseline` metres apart.
 std::string StereoRangeWarning(const DepthImage& depth, double baseline);
 
 }  // namespace ceres_ed

@@ -130,7 +130,9 @@ Outcome SlamSession::TakeFrame() {
 
 void SlamSession::CheckDepth(const DepthFrame& frame) {
   depth_key_ = Fingerprint(frame.depth);
-  if (depth_checked_) return;
+  const auto is_measured = [](float z) { return z > 0.0F; };
+  const std::vector<float>& pixels = frame.depth.pixels();
+  if (depth_checked_ || std::none_of(pixels.begin(), pixels.end(), is_measured)) return;
   depth_checked_ = true;
   const std::string warning =
       sequence_.is_stereo()
