@@ -122,6 +122,50 @@ TEST_F(EdSlamOutputTest, RefusesToWriteIntoItsInput) {
   EXPECT_FALSE(Exists("seq/frames.csv"));
 }
 
+TEST_F(EdSlamOutputTest, WritesNothingThroughSymbolicLinks) {
+  const std::vector<std::string> names = {
+      "frames.csv", "trajectory.txt", "map.ply", "graph.ply", "report.json", "tracks.csv"};
+  std::filesystem::create_directories(dir_ / "other/live");
+  std::filesystem::create_directories(dir_ / "out");
+  for (const std::string& name : names) {
+    WriteBytes(dir_ / ("other/" + name), "mine");
+    std::filesystem::create_symlink("../other/" + name, dir_ / ("out/" + name));
+  }
+  WriteBytes(dir_ / "other/live/000000.ply", "mine");
+  std::filesystem::create_symlink("../other/live", dir_ / "out/live");
+  std::filesystem::create_symlink("nowhere", dir_ / "out/masks");
+  const std::vector<std::string> flags = {"--last=1", "--write_masks", "--checkpoint_every=1"};
+  EXPECT_EQ(Run("out", flags).exit_code, 1) << "a report that is not understood is a result";
+  std::filesystem::remove(dir_ / "out/report.json");
+  const ProgramResult result = Run("out", flags);
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(Report()["status"], "done");
+  EXPECT_TRUE(Exists("out/live/000001.ply"));
+  EXPECT_TRUE(Exists("out/masks/000001.png"));
+  EXPECT_FALSE(Exists("out/nowhere"));
+  for (const std::string& name : names) EXPECT_EQ(ReadBytes(dir_ / ("other/" + name)), "mine");
+  EXPECT_EQ(ReadBytes(dir_ / "other/live/000000.ply"), "mine");
+  EXPECT_FALSE(Exists("other/live/000001.ply"));
+}
+
+TEST_F(EdSlamOutputTest, ResumesInItsOwnFilesOnly) {
+  ASSERT_EQ(Run("out", {"--last=1", "--checkpoint_every=1"}).exit_code, 0);
+  std::filesystem::rename(dir_ / "out/map.ply", dir_ / "map.ply");
+  std::filesystem::create_symlink("../map.ply", dir_ / "out/map.ply");
+  const std::string map = ReadBytes(dir_ / "map.ply");
+  EXPECT_EQ(Run("out", {"--resume", "--checkpoint_every=1", "--last=2"}).exit_code, 0);
+  EXPECT_TRUE(ReadBytes(dir_ / "map.ply") == map);
+  EXPECT_FALSE(std::filesystem::is_symlink(dir_ / "out/map.ply"));
+
+  std::filesystem::rename(dir_ / "out/frames.csv", dir_ / "frames.csv");
+  std::filesystem::create_symlink("../frames.csv", dir_ / "out/frames.csv");
+  const std::string frames = ReadBytes(dir_ / "frames.csv");
+  const ProgramResult refused = Run("out", {"--resume", "--checkpoint_every=1"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("out/frames.csv: is a symbolic link, expected the file"));
+  EXPECT_EQ(ReadBytes(dir_ / "frames.csv"), frames);
+}
+
 TEST_F(EdSlamOutputTest, PrintsItsSummaryBelowTheProgressBar) {
   if (!HasTerminals()) GTEST_SKIP() << "this machine cannot make terminals";
   const ProgramResult result =

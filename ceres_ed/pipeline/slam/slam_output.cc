@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -29,6 +30,7 @@ constexpr char kFrames[] = "frames.csv";
 constexpr char kTrajectory[] = "trajectory.txt";
 constexpr char kTracks[] = "tracks.csv";
 constexpr char kMasks[] = "masks";
+constexpr char kLive[] = "live";
 constexpr char kMap[] = "map.ply";
 constexpr char kGraph[] = "graph.ply";
 
@@ -77,14 +79,38 @@ void RemoveLeftOvers(const std::string& directory, bool results_too) {
   });
   RemoveFiles(directory + "/" + kMasks,
               [&](const std::string& name) { return goes(name) && IsMaskName(name); });
-  RemoveFiles(directory + "/live", [&](const std::string& name) {
+  RemoveFiles(directory + "/" + kLive, [&](const std::string& name) {
     return goes(name) && IsLiveCloudName(WithoutTemporaryEnd(name));
   });
 }
 
-Status MakeFolders(const std::string& directory) {
+// Removes the symbolic links that have the names of results: a run must not write into files and
+// folders that lie elsewhere. A run that goes on in its own files refuses links to them instead
+// (`results_too` is false). Links to devices and pipes stay.
+Status RemoveLinks(const std::string& directory, bool results_too) {
+  for (const char* name :
+       {kFrames, kTrajectory, kTracks, kMap, kGraph, kReportName, kCheckpointName, kMasks, kLive}) {
+    const std::string path = directory + "/" + name;
+    std::error_code error;
+    if (!fs::is_symlink(path, error)) continue;
+    if (fs::is_other(path, error)) continue;
+    const std::string_view text(name);
+    const bool grows = text == kFrames || text == kTrajectory || text == kTracks;
+    if (!results_too && grows) {
+      return Status::Error(path + ": is a symbolic link, expected the file that the run has begun");
+    }
+    if (!fs::remove(path, error)) return Status::Error(path + ": cannot write: " + error.message());
+  }
+  return Status::Ok();
+}
+
+Status MakeFolders(const std::string& directory, bool results_too) {
   std::error_code error;
-  fs::create_directories(directory + "/live", error);
+  fs::create_directories(directory, error);
+  if (!error) {
+    if (Status status = RemoveLinks(directory, results_too); !status.ok()) return status;
+    fs::create_directories(directory + "/" + kLive, error);
+  }
   if (error) {
     return Status::Error(directory + ": cannot be created as a folder: " + error.message());
   }
@@ -130,7 +156,7 @@ bool HoldsResult(const std::string& directory) {
 
 StatusOr<std::unique_ptr<SlamOutput>> SlamOutput::Create(const std::string& directory,
                                                          const PinholeCamera& camera) {
-  Status status = MakeFolders(directory);
+  Status status = MakeFolders(directory, /*results_too=*/true);
   if (!status.ok()) return status;
   RemoveLeftOvers(directory, /*results_too=*/true);
   std::unique_ptr<SlamOutput> output(new SlamOutput(directory, camera));
@@ -149,7 +175,7 @@ StatusOr<std::unique_ptr<SlamOutput>> SlamOutput::Create(const std::string& dire
 StatusOr<std::unique_ptr<SlamOutput>> SlamOutput::Reopen(const std::string& directory,
                                                          const PinholeCamera& camera,
                                                          CheckpointArchive* archive) {
-  Status status = MakeFolders(directory);
+  Status status = MakeFolders(directory, /*results_too=*/false);
   if (!status.ok()) return status;
   RemoveLeftOvers(directory, /*results_too=*/false);
   FileSizes sizes;
@@ -181,7 +207,7 @@ Status SlamOutput::WriteFrame(const FrameRecord& record,
                               const FrameOutput& options) {
   if (!HasPose(record)) return Status::Ok();
   if (options.live) {
-    const std::string path = Path("live/" + LiveCloudName(record.number));
+    const std::string path = Path(std::string(kLive) + "/" + LiveCloudName(record.number));
     Status status = WriteLiveCloud(path, ExportLivePoints(slam));
     if (!status.ok()) return status;
   }

@@ -42,12 +42,14 @@ bool HoldsResult(const std::string& directory);
 class SlamOutput {
  public:
   // Creates the folder if it does not exist, and removes the files that an earlier run has left in
-  // it, but no files of other names. The error names the path and gives the system's reason.
+  // it, but no files of other names. Symbolic links of such names are removed, not what they point
+  // to. The error names the path and gives the system's reason.
   static StatusOr<std::unique_ptr<SlamOutput>> Create(const std::string& directory,
                                                       const PinholeCamera& camera);
 
   // Continues in a folder from the state that `archive` has saved. Rows that were written after the
-  // checkpoint are removed.
+  // checkpoint are removed. It is an error if a file with rows is a symbolic link; other links are
+  // removed as by Create().
   static StatusOr<std::unique_ptr<SlamOutput>> Reopen(const std::string& directory,
                                                       const PinholeCamera& camera,
                                                       CheckpointArchive* archive);
