@@ -1,4 +1,8 @@
 // Binds fit() and its result.
+#include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/pipeline/check/check_files.h>
+#include <ceres_ed/pipeline/fit/fit_run.h>
+#include <ceres_ed/pipeline/fit/fit_verdict.h>
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/callbacks.h>
@@ -44,11 +48,19 @@ std::vector<Landmark> ToLandmarks(const py::object& object) {
   return landmarks;
 }
 
-StatusOr<FitResult> FitWithoutLock(const FitInput& input,
+// The files from which source and target were read; null for arrays.
+struct Documents {
+  const PlyDocument* source = nullptr;
+  const PlyDocument* target = nullptr;
+};
+
+// Looks at the inputs, fits, and judges the result.
+StatusOr<FitResult> FitWithoutLock(const Documents& documents,
                                    FitOptions options,
                                    const EnergyRegistry& registry,
                                    const py::object& progress,
-                                   Callbacks* callbacks) {
+                                   Callbacks* callbacks,
+                                   FittedSurface* fitted) {
   options.should_stop = [callbacks] { return callbacks->ShouldStop(); };
   if (!progress.is_none()) {
     options.on_progress = [callbacks, &progress](const FitProgress& state) {
@@ -56,7 +68,18 @@ StatusOr<FitResult> FitWithoutLock(const FitInput& input,
     };
   }
   const py::gil_scoped_release release;
-  return Fit(input, options, registry);
+  const FitInput& input = fitted->input;
+  StatusOr<FitResult> result = Fit(input, options, registry);
+  if (!result.ok()) return result;
+  const double source_diagonal = Diagonal(input.source.points);
+  const double target_diagonal = input.target.empty() ? 0.0 : Diagonal(input.target.points);
+  fitted->checks =
+      CheckFiles({"source", &input.source, documents.source},
+                 {input.target.empty() ? "" : "target", &input.target, documents.target},
+                 options.should_stop);
+  fitted->verdict =
+      JudgeFit({&*result, source_diagonal, target_diagonal, MeasureLandmarks(input, *result).rms});
+  return result;
 }
 
 // The function has one parameter for each of Python's. NOLINTNEXTLINE(readability-function-size)
@@ -72,8 +95,14 @@ std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
                                            const py::kwargs& changes) {
   auto fitted = std::make_unique<FittedSurface>();
   FitInput& input = fitted->input;
-  input.source = SurfaceArgument(source, "source").Take();
-  if (!target.is_none()) input.target = SurfaceArgument(target, "target").Take();
+  Documents documents;
+  const auto take = [](const py::object& object, const char* what, const PlyDocument** document) {
+    SurfaceArgument surface(object, what);
+    *document = surface.document();
+    return std::move(surface).Take();
+  };
+  input.source = take(source, "source", &documents.source);
+  if (!target.is_none()) input.target = take(target, "target", &documents.target);
   input.landmarks = ToLandmarks(landmarks);
   if (!fixed.is_none()) input.fixed_points = ToIndices(fixed, "fixed");
   FitOptions changed = options != nullptr ? *options : FitOptions();
@@ -82,7 +111,8 @@ std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
   const EnergyRegistry registry = MakeRegistry(plugin);
   ExpectLargeBlocks();
   Callbacks callbacks(should_stop);
-  StatusOr<FitResult> result = FitWithoutLock(input, changed, registry, progress, &callbacks);
+  StatusOr<FitResult> result =
+      FitWithoutLock(documents, changed, registry, progress, &callbacks, fitted.get());
   callbacks.Rethrow();
   fitted->result = ValueOrThrow(std::move(result));
   if (!fitted->result.IsUsable()) throw std::runtime_error(fitted->result.message);
@@ -283,6 +313,13 @@ void BindCourse(ResultClass* result) {
       "The number of faces that were folded over and have been laid flat.");
   AddNumber(
       result, "warnings", [](const R& r) { return r.warnings; }, "The warnings, a sentence each.");
+  result->def_readonly("verdict",
+                       &FittedSurface::verdict,
+                       "The Verdict: whether the result can be trusted, and why.");
+  result->def_property_readonly(
+      "checks",
+      [](const FittedSurface& self) { return self.checks; },
+      "What is wrong with the inputs, a Finding for each fault.");
   result->def_property_readonly("times", &Times, "The seconds of each stage.");
   result->def("__len__", [](const FittedSurface& self) { return self.result.points.size(); });
   result->def("__repr__", [](const FittedSurface& self) {

@@ -11,6 +11,7 @@ void BindEnergies(pybind11::module_& module);
 void BindGraph(pybind11::module_& module);
 void BindWarp(pybind11::module_& module);
 void BindFitOptions(pybind11::module_& module);
+void BindVerdict(pybind11::module_& module);
 void BindFit(pybind11::module_& module);
 void BindEvaluate(pybind11::module_& module);
 void BindTrackerOptions(pybind11::module_& module);

@@ -16,6 +16,7 @@ PYBIND11_MODULE(_core, module) {
   ceres_ed::python::BindGraph(module);
   ceres_ed::python::BindWarp(module);
   ceres_ed::python::BindFitOptions(module);
+  ceres_ed::python::BindVerdict(module);
   ceres_ed::python::BindFit(module);
   ceres_ed::python::BindEvaluate(module);
   ceres_ed::python::BindTracker(module);

@@ -62,7 +62,9 @@ bool IsPairOfArrays(const py::object& object) {
 SurfaceArgument::SurfaceArgument(const py::object& object, const std::string& what)
     : object_(object) {
   if (py::isinstance<Cloud>(object)) {
-    shared_ = &object.cast<Cloud&>().cloud;
+    const Cloud& cloud = object.cast<Cloud&>();
+    shared_ = &cloud.cloud;
+    if (cloud.file != nullptr) document_ = &cloud.file->document;
   } else if (py::isinstance<FittedSurface>(object)) {
     const FittedSurface& fitted = object.cast<FittedSurface&>();
     own_.points = fitted.result.points;

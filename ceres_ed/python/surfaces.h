@@ -4,11 +4,14 @@
 
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/pipeline/verdict.h>
+#include <ceres_ed/preflight/finding.h>
 #include <ceres_ed/registration/fit.h>
 
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <pybind11/pybind11.h>
 
@@ -21,10 +24,12 @@ struct Cloud {
   std::unique_ptr<LoadedCloud> file;
 };
 
-// The class FitResult: the result of a fit and its input.
+// The class FitResult: the result of a fit, its input, and how far to trust them.
 struct FittedSurface {
   FitInput input;
   FitResult result;
+  Verdict verdict;
+  std::vector<Finding> checks;
 };
 
 // A surface that exists during a call. The surface of a Cloud is shared; any other one is a copy.
@@ -36,6 +41,8 @@ class SurfaceArgument {
   SurfaceArgument(const pybind11::object& object, const std::string& what);
 
   const PointCloud& operator*() const { return shared_ != nullptr ? *shared_ : own_; }
+  // The file from which the surface was read; null if it came from arrays.
+  const PlyDocument* document() const { return document_; }
   // Returns a copy if the surface belongs to a Cloud, otherwise the surface itself.
   PointCloud Take() && {
     if (shared_ != nullptr) return *shared_;
@@ -46,6 +53,7 @@ class SurfaceArgument {
   // Keeps the Cloud alive.
   pybind11::object object_;
   const PointCloud* shared_ = nullptr;
+  const PlyDocument* document_ = nullptr;
   PointCloud own_;
 };
 

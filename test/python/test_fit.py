@@ -48,6 +48,31 @@ def test_writes_what_ed_fit_writes(data, plane, fitted, run_app, tmp_path):
     assert sum(terms.values()) == pytest.approx(fitted.final_energy, rel=1e-12)
 
 
+def test_verdict_and_checks_are_those_of_ed_fit(data, run_app, tmp_path):
+    # A target in another unit: the verdict is bad, and the checks name the unit.
+    source = ceres_ed.load(data / "plane_bumps/source.ply")
+    big = tmp_path / "target.ply"
+    ceres_ed.save(big, ceres_ed.load(data / "plane_bumps/target.ply").points * 10)
+    result = ceres_ed.fit(source, ceres_ed.load(big))
+    run_app("ed_fit", data / "plane_bumps/source.ply", big, f"--output={tmp_path / 'app.ply'}",
+            f"--report={tmp_path / 'report.json'}", "--quiet")
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert result.verdict.grade == report["verdict"]["grade"] != "good"
+    assert result.verdict.reasons == report["verdict"]["reasons"]
+    assert result.verdict.advice == report["verdict"]["advice"]
+    assert report["verdict"]["grade"] in repr(result.verdict)
+    assert [f.code for f in result.checks] == [f["code"] for f in report["checks"]]
+    assert [f.value for f in result.checks] == [f["value"] for f in report["checks"]]
+    unit = next(f for f in result.checks if f.code == "units")
+    assert unit.severity == "warning" and "--scale" in unit.fix and "source" in unit.text
+
+
+def test_a_good_fit_has_a_good_verdict(fitted):
+    assert fitted.verdict.grade == "good"
+    assert fitted.verdict.reasons == [] and fitted.verdict.advice == []
+    assert not any(finding.severity == "warning" for finding in fitted.checks)
+
+
 def test_flags_are_options(data, run_app, tmp_path):
     pair = data / "dolphin_bend"
     run_app("ed_fit", pair / "source.ply", pair / "target.ply", "--mode=two_level", "--rings=1",

@@ -6,15 +6,16 @@
 namespace ceres_ed {
 namespace {
 
-bool HasFloatPositions(const PlyDocument& document) {
-  const PlyElement* const vertices = document.Find("vertex");
+bool HasFloatPositions(const PlyDocument* document) {
+  if (document == nullptr) return false;
+  const PlyElement* const vertices = document->Find("vertex");
   if (vertices == nullptr) return false;
   const auto columns = FindPositionColumns(*vertices);
   return columns.has_value() && vertices->properties[(*columns)[0]].type == PlyType::kFloat32;
 }
 
 Specimen MakeSpecimen(const CheckedFile& file, const SurfaceTopology& topology) {
-  return {file.path, file.cloud, &topology, HasFloatPositions(*file.document)};
+  return {file.path, file.cloud, &topology, HasFloatPositions(file.document)};
 }
 
 }  // namespace

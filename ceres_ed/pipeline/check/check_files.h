@@ -14,8 +14,10 @@
 
 namespace ceres_ed {
 
-// A cloud and the document from which it was read; neither pointer is null.
+// A cloud, which is not null, and the document from which it was read; null if its positions were
+// doubles from the start.
 struct CheckedFile {
+  // The noun of the findings.
   std::string path;
   const PointCloud* cloud = nullptr;
   const PlyDocument* document = nullptr;

@@ -76,15 +76,19 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
 }  // namespace
 
 LandmarkErrors MeasureLandmarks(const FitRun& run) {
+  return MeasureLandmarks(run.files->input, *run.result);
+}
+
+LandmarkErrors MeasureLandmarks(const FitInput& input, const FitResult& result) {
   LandmarkErrors errors;
   double sum = 0.0;
-  for (const Landmark& landmark : run.files->input.landmarks) {
-    if (run.result->points.empty()) break;
-    const double error = (run.result->points[landmark.point] - landmark.position).norm();
+  for (const Landmark& landmark : input.landmarks) {
+    if (result.points.empty()) break;
+    const double error = (result.points[landmark.point] - landmark.position).norm();
     sum += error * error;
     errors.max = std::max(errors.max, error);
   }
-  errors.count = static_cast<int>(run.files->input.landmarks.size());
+  errors.count = static_cast<int>(input.landmarks.size());
   if (errors.count > 0) errors.rms = std::sqrt(sum / errors.count);
   return errors;
 }

@@ -42,6 +42,9 @@ struct LandmarkErrors {
 // Returns the errors of all landmarks; only their count if the fit has no points.
 LandmarkErrors MeasureLandmarks(const FitRun& run);
 
+// Returns the same of a fit without files.
+LandmarkErrors MeasureLandmarks(const FitInput& input, const FitResult& result);
+
 // Returns the number of nodes with data (PR nodes).
 int NumPointRelevant(const FitResult& result);
 

@@ -13,12 +13,13 @@ A surface is an (N, 3) array of points, a pair (points, triangles), a Cloud, a F
 or cloud of trimesh or Open3D.
 """
 from ._core import (
-    Camera, Cloud, DistanceStatistics, Energy, EnergyInfo, EnergyParameter, Evaluation, FitOptions,
-    FitProgress, FitResult, FrameReport, Graph, GraphOptions, MapSnapshot, ShapeChange, Tracker,
-    TrackerOptions, Warp, __version__, backend, evaluate, fit, list_energies, load, save)
+    Camera, Cloud, DistanceStatistics, Energy, EnergyInfo, EnergyParameter, Evaluation, Finding,
+    FitOptions, FitProgress, FitResult, FrameReport, Graph, GraphOptions, MapSnapshot, ShapeChange, Tracker,
+    TrackerOptions, Verdict, Warp, __version__, backend, evaluate, fit, list_energies, load, save)
 
 __all__ = [
     "Camera", "Cloud", "DistanceStatistics", "Energy", "EnergyInfo", "EnergyParameter",
-    "Evaluation", "FitOptions", "FitProgress", "FitResult", "FrameReport", "Graph", "GraphOptions",
-    "MapSnapshot", "ShapeChange", "Tracker", "TrackerOptions", "Warp", "__version__", "backend",
+    "Evaluation", "Finding", "FitOptions", "FitProgress", "FitResult", "FrameReport", "Graph", "GraphOptions",
+    "MapSnapshot", "ShapeChange", "Tracker", "TrackerOptions", "Verdict", "Warp", "__version__",
+    "backend",
     "evaluate", "fit", "list_energies", "load", "save"]
