@@ -6,10 +6,12 @@
 #include <ceres_ed/pipeline/fit/stray_vertices.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/preflight/compare_sizes.h>
+#include <ceres_ed/preflight/repair.h>
 #include <ceres_ed/util/options.h>
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <apps/support/console.h>
@@ -61,6 +63,11 @@ Outcome Run(const std::vector<std::string>& arguments) {
   // As in a fit, so that the fit's own source gives the fit's result. A list of points, however,
   // may hold annotations anywhere.
   if (loaded->cloud.HasTriangles()) LeaveOutStrayVertices(arguments[1], &*loaded);
+  if (warp->repaired) {
+    for (std::string& done : RepairCloud(arguments[1], &loaded->cloud)) {
+      loaded->warnings.push_back(std::move(done) + ", as in the fit");
+    }
+  }
   PointCloud& cloud = loaded->cloud;
   const std::optional<SizeMismatch> mismatch = CompareSizes(
       {"the graph of " + arguments[0], SizeOfGraph(*warp)}, {arguments[1], Diagonal(cloud.points)});

@@ -42,6 +42,9 @@ struct Warp {
   BindingOptions binding;
   // Displacements, in the frame and unit of the source, that are added to the motion of the nodes.
   VertexField finish;
+  // Whether the source was mended before the fit (RepairCloud of preflight/repair.h). Meshes whose
+  // points are bound to the graph must be mended, too; ApplyWarp() does not do it.
+  bool repaired = false;
 };
 
 // Returns the warped point in the map frame, without the camera: sum_j w_j [A_j (v - g_j) + g_j +

@@ -17,10 +17,12 @@ namespace ceres_ed {
 //    "nodes": [{"g": [3], "A": [9, column by column], "t": [3]}, ...],
 //    "edges": [[from, to, alpha], ...],
 //    "inner_nodes": n,
+//    "repaired": true,
 //    "finish": {"points": [[x, y, z, dx, dy, dz], ...]}}
-// "inner_nodes" is written only if there are any: the last n nodes lie inside the body. "finish" is
-// written only if the warp has one: points of the source and their displacements. The
-// camera and the number of threads are not written. Returns an error if a number in `warp` is not
+// "inner_nodes" is written only if there are any: the last n nodes lie inside the body. "repaired"
+// is written only if the source was mended before the fit. "finish" is written only if the warp has
+// one: points of the source and their displacements. The camera and the number of threads are not
+// written. Returns an error if a number in `warp` is not
 // finite, or with the system's reason.
 Status WriteWarp(const std::string& path, const Warp& warp);
 

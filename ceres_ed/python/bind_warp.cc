@@ -1,6 +1,7 @@
 // Binds deformations, which can be loaded, made, read, changed and applied.
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/preflight/repair.h>
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/errors.h>
@@ -80,6 +81,7 @@ py::object Apply(const Warp& warp,
     throw py::value_error("threads is " + std::to_string(threads) + ", expected >= 1");
   const auto apply = [&] {
     const py::gil_scoped_release release;
+    if (warp.repaired) RepairCloud("points", &cloud);
     return ApplyWarp(warp, &cloud, threads);
   };
   ThrowUnlessOk(apply());

@@ -1,7 +1,10 @@
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/warp_io.h>
+#include <ceres_ed/simulation/shapes.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -97,6 +100,54 @@ TEST(EdApply, SaysWhatItLeavesOutAsEveryProgramDoes) {
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.err,
             "ed_apply: warning: " + cloud + ": 1 triangle with a repeated corner dropped\n");
+}
+
+// A heart that is cut in two: the vertices along the cut are there twice, a little apart.
+PointCloud TornHeart() {
+  PointCloud heart = MakeSyntheticShape(SyntheticShape::kHeart, 1500, 1.0);
+  const int whole = static_cast<int>(heart.size());
+  for (std::array<int, 3>& triangle : heart.triangles) {
+    if (heart.points[triangle[0]].x() < 0.0) continue;
+    for (int& corner : triangle) {
+      if (heart.points[corner].x() < 0.0) continue;
+      if (corner >= whole) continue;
+      heart.points.emplace_back(heart.points[corner].array() + 1e-8 * (corner % 5 + 1));
+      corner = static_cast<int>(heart.size()) - 1;
+    }
+  }
+  return heart;
+}
+
+TEST(EdApply, AgreesWithAFitThatHasMendedItsSource) {
+  const PointCloud source = TornHeart();
+  PointCloud target = MakeSyntheticShape(SyntheticShape::kHeart, 1500, 1.0);
+  for (Eigen::Vector3d& point : target.points) point.z() += 0.3 * point.x() * point.x();
+  const std::string torn = TempPath("torn.ply");
+  const std::string bent = TempPath("bent.ply");
+  CloudWriteOptions options;
+  options.double_precision = true;
+  ASSERT_TRUE(WriteCloud(torn, source, options).ok());
+  ASSERT_TRUE(WriteCloud(bent, target, options).ok());
+  const std::string warp = TempPath("mended.json");
+  const std::string fitted = TempPath("fitted.ply");
+  const ProgramResult fit =
+      RunProgramFile(AppPath("ed_fit"),
+                     {torn, bent, "--repair", "--output=" + fitted, "--warp=" + warp, "--quiet"});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  ASSERT_THAT(fit.err, HasSubstr("moved to the place of the vertex")) << "nothing to mend";
+  const std::string applied = TempPath("applied.ply");
+  const ProgramResult result = Apply({warp, torn, "--output=" + applied});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("nearly coincide, as in the fit"));
+  const StatusOr<LoadedCloud> one = LoadCloud(fitted);
+  const StatusOr<LoadedCloud> other = LoadCloud(applied);
+  ASSERT_TRUE(one.ok() && other.ok());
+  ASSERT_EQ(one->cloud.size(), other->cloud.size());
+  double apart = 0.0;
+  for (std::size_t p = 0; p < one->cloud.size(); ++p) {
+    apart = std::max(apart, (one->cloud.points[p] - other->cloud.points[p]).norm());
+  }
+  EXPECT_LT(apart, 1e-9);
 }
 
 TEST(EdApply, NeedsAnOutput) {

@@ -98,6 +98,19 @@ TEST(WarpFile, ReadsInnerNodesBack) {
   EXPECT_EQ(again->graph.position(21), warp.graph.position(21));
 }
 
+TEST(WarpFile, RemembersThatTheSourceWasMended) {
+  const TemporaryDirectory directory;
+  Warp warp = MakeWarp();
+  for (const bool repaired : {true, false}) {
+    warp.repaired = repaired;
+    ASSERT_TRUE(WriteWarp(directory / "w.json", warp).ok());
+    const StatusOr<Warp> again = ReadWarp(directory / "w.json");
+    ASSERT_TRUE(again.ok()) << again.status().message();
+    EXPECT_EQ(again->repaired, repaired);
+  }
+  EXPECT_EQ(ReadBytes(directory / "w.json").find("repaired"), std::string::npos);
+}
+
 TEST(WarpFile, ReadsTheFinishBackToTheSameBits) {
   const TemporaryDirectory directory;
   const Warp warp = MakeFinishedWarp();
@@ -190,6 +203,7 @@ TEST(WarpFile, NamesTheBadField) {
   EXPECT_EQ(ErrorAfter([](json& w) { w["version"] = 2; }),
             "version is 2, this program reads up to 1");
   EXPECT_THAT(ErrorAfter([](json& w) { w["version"] = "1"; }), StartsWith("version is '1'"));
+  EXPECT_EQ(ErrorAfter([](json& w) { w["repaired"] = 1; }), "repaired is not true or false");
   EXPECT_EQ(ErrorAfter([](json& w) { w.erase("nodes"); }), "nodes is missing");
   EXPECT_EQ(ErrorAfter([](json& w) { w["nodes"] = 3; }), "nodes is number, expected an array");
   EXPECT_EQ(ErrorAfter([](json& w) { w["nodes"] = json::array(); }),

@@ -207,6 +207,14 @@ void ReadFinish(const json& root, FieldReader* reader, VertexField* field) {
   }
 }
 
+// Files of fits without --repair do not have this field.
+void ReadRepaired(const json& root, FieldReader* reader, bool* repaired) {
+  const auto found = root.find("repaired");
+  if (found == root.end()) return;
+  if (!found->is_boolean()) return reader->Fail("repaired", "is not true or false");
+  *repaired = found->get<bool>();
+}
+
 }  // namespace
 
 StatusOr<Warp> ReadWarp(const std::string& path) {
@@ -228,6 +236,7 @@ StatusOr<Warp> ReadWarp(const std::string& path) {
   if (reader.ok()) ReadBinding(root, &reader, &warp.binding);
   if (reader.ok()) ReadNodes(root, &reader, &warp);
   if (reader.ok()) ReadEdges(root, &reader, &warp);
+  if (reader.ok()) ReadRepaired(root, &reader, &warp.repaired);
   if (reader.ok()) ReadFinish(root, &reader, &warp.finish);
   if (!reader.ok()) return reader.status();
   return warp;

@@ -113,6 +113,7 @@ Status WriteWarp(const std::string& path, const Warp& warp) {
   if (warp.graph.num_inner_nodes() > 0) {
     stream << ",\n  \"inner_nodes\": " << warp.graph.num_inner_nodes();
   }
+  if (warp.repaired) stream << ",\n  \"repaired\": true";
   if (!warp.finish.empty()) WriteFinish(warp.finish, &stream);
   stream << "\n}\n";
   return (*file)->Commit();

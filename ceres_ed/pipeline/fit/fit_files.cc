@@ -121,6 +121,14 @@ PlyDocument WithDeviations(const FitFiles& files, const FitUncertainty& uncertai
   return document;
 }
 
+// Writes the warp, which remembers whether the source was mended.
+Status WriteFittedWarp(const FitSettings& settings, const Warp& warp) {
+  if (!settings.repair) return WriteWarp(settings.warp, warp);
+  Warp of_mended = warp;
+  of_mended.repaired = true;
+  return WriteWarp(settings.warp, of_mended);
+}
+
 // Writes the vertices of the result with their covariances.
 Status WriteCovariances(const std::string& path, const FitFiles& files, const FitResult& result) {
   constexpr std::array<const char*, 6> kNames = {"xx", "xy", "xz", "yy", "yz", "zz"};
@@ -216,7 +224,7 @@ Status WriteFitFiles(const FitSettings& settings, const FitFiles& files, const F
   if (status.ok() && has_covariances && !settings.covariance.empty()) {
     status = WriteCovariances(settings.covariance, files, result);
   }
-  if (status.ok() && !settings.warp.empty()) status = WriteWarp(settings.warp, result.warp);
+  if (status.ok() && !settings.warp.empty()) status = WriteFittedWarp(settings, result.warp);
   if (!status.ok() || settings.graph.empty()) return status;
   GraphWriteOptions options;
   options.output_from_graph = result.warp.target_from_source;
