@@ -1,5 +1,6 @@
 #include "ceres_ed/energy/energy_spec.h"
 
+#include <ceres_ed/util/shown_text.h>
 #include <ceres_ed/util/text.h>
 
 #include <cmath>
@@ -102,7 +103,8 @@ StatusOr<std::vector<EnergySpec>> ParseEnergySpecs(const std::string& text) {
   for (const std::string_view piece : SplitLines(text, ';')) {
     if (piece.empty()) continue;
     StatusOr<EnergySpec> spec = ParseOne(std::string(piece));
-    if (!spec.ok()) return spec.status();
+    // The sentence repeats what was written, which may be anything.
+    if (!spec.ok()) return Status::Error(ShownLine(spec.status().message()));
     specs.push_back(*std::move(spec));
   }
   return specs;

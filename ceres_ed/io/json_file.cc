@@ -1,6 +1,7 @@
 #include "ceres_ed/io/json_file.h"
 
 #include <ceres_ed/io/text.h>
+#include <ceres_ed/util/shown_text.h>
 
 #include <exception>
 #include <utility>
@@ -13,7 +14,7 @@ StatusOr<nlohmann::json> ReadJsonFile(const std::string& path) {
   try {
     return nlohmann::json::parse(*text);
   } catch (const std::exception& error) {
-    return Status::Error(path + ": no JSON: " + error.what());
+    return Status::Error(path + ": no JSON: " + ShownLine(error.what()));
   }
 }
 

@@ -1,6 +1,7 @@
 // The only file that includes yaml-cpp.
 #include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/text.h>
+#include <ceres_ed/util/shown_text.h>
 
 #include <exception>
 #include <optional>
@@ -68,9 +69,9 @@ StatusOr<json> ReadYamlFile(const std::string& path) {
     return ToJson(path, YAML::Load(*text), 0);
   } catch (const YAML::Exception& error) {
     return Status::Error(path + ": line " + std::to_string(error.mark.line + 1) +
-                         ": no YAML: " + error.msg);
+                         ": no YAML: " + ShownLine(error.msg));
   } catch (const std::exception& error) {
-    return Status::Error(path + ": no YAML: " + error.what());
+    return Status::Error(path + ": no YAML: " + ShownLine(error.what()));
   }
 }
 

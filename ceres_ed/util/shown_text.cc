@@ -23,4 +23,12 @@ std::string ShownText(std::string_view text) {
   return shown;
 }
 
+std::string ShownLine(std::string_view text) {
+  std::string shown = ShownText(text);
+  for (char& c : shown) {
+    if (c == '\n' || c == '\t') c = '?';
+  }
+  return shown;
+}
+
 }  // namespace ceres_ed

@@ -13,6 +13,9 @@ namespace ceres_ed {
 // U+009F become '?'.
 std::string ShownText(std::string_view text);
 
+// Returns the same with '?' for line feeds and tabs, too: text that is part of a sentence.
+std::string ShownLine(std::string_view text);
+
 }  // namespace ceres_ed
 
 #endif  // CERES_ED_UTIL_SHOWN_TEXT_H_

@@ -14,6 +14,8 @@ TEST(ShownText, HasNoControlCharacters) {
             "a?31m");
 }
 
+TEST(ShownLine, IsOneLine) { EXPECT_EQ(ShownLine("one\ttwo\n\x1b[31m"), "one?two??[31m"); }
+
 TEST(ShownText, KeepsLinesTabsAndLetters) {
   EXPECT_EQ(ShownText("one\ttwo\n"), "one\ttwo\n");
   EXPECT_EQ(ShownText("gr\xc3\xb6\xc3\x9f"

@@ -160,6 +160,7 @@ class HeaderParser {
 
   Status ParseElement(const std::vector<std::string_view>& words) {
     if (words.size() != 3) return Error("expected 'element NAME COUNT'");
+    if (!IsPrintable(words[1])) return Error(Quoted(words[1]) + " is no name of an element");
     std::uint64_t count = 0;
     const char* const end = words[2].data() + words[2].size();
     const std::from_chars_result result = std::from_chars(words[2].data(), end, count);
@@ -167,7 +168,6 @@ class HeaderParser {
       return Error("element '" + std::string(words[1]) + "' has the count " + Quoted(words[2]) +
                    ", expected a whole number of at least 0");
     }
-    if (!IsPrintable(words[1])) return Error(Quoted(words[1]) + " is no name of an element");
     PlyElement element;
     element.name = std::string(words[1]);
     element.count = count;

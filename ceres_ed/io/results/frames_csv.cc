@@ -3,6 +3,7 @@
 #include <ceres_ed/io/csv_table.h>
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/io/text_rows.h>
+#include <ceres_ed/util/shown_text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +21,7 @@ StatusOr<double> ParseCell(const CsvRow& row, const std::string& name, const std
   if (cell.empty()) return std::numeric_limits<double>::quiet_NaN();
   const std::optional<double> value = ParseDouble(cell);
   if (value) return *value;
-  return Status::Error(row.place + name + " is " + Quoted(cell) + ", expected a number");
+  return Status::Error(row.place + ShownLine(name) + " is " + Quoted(cell) + ", expected a number");
 }
 
 }  // namespace
