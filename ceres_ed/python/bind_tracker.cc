@@ -88,6 +88,15 @@ void BindReport(py::module_& module) {
           "overlap",
           &R::overlap,
           "The share of the points in view, where the surface is measured, that lie on it.")
+      .def_property_readonly(
+          "camera_covariance",
+          [](const R& self) -> py::object {
+            if (!self.camera_covariance.has_value()) return py::none();
+            // Symmetric, so the order of its entries does not matter.
+            return py::array_t<double>({6, 6}, self.camera_covariance->data());
+          },
+          "The covariance of camera to map, (6, 6): the position in the map frame (metres), then a "
+          "rotation vector in the camera frame (radians). None without covariance=True.")
       .def_readonly("weak_directions",
                     &R::weak_directions,
                     "The number of directions of the camera's motion that are not determined.")

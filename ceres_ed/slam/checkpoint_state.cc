@@ -250,6 +250,7 @@ void Tracker::Exchange(CheckpointArchive* archive) {
   foreground_.Exchange(archive);
   memory_.Exchange(archive);
   levels_->Exchange(archive);
+  if (options_.covariance) covariances_.Exchange(archive);
   archive->Leave();
   levels_->ForgetSolvers();
 }

@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace ceres_ed {
 
 class CheckpointArchive;
@@ -45,6 +47,11 @@ class DeformableSlam {
   virtual MapMemory Memory() const = 0;
   // Returns whether the last tracked frame had data on a node, or has added the node.
   virtual bool HasData(int node) const = 0;
+
+  // Returns the covariance of a point of the map, by its slot, in the map frame and in squared map
+  // units, as the last frame left it whose Level I has moved all nodes of the point
+  // (LevelCovariance). NaN if there was none, or without SlamOptions::covariance.
+  virtual Eigen::Matrix3d PointCovariance(int slot) const = 0;
 
   // Returns the energies of LevelsOptions::energies that have not added a residual yet.
   virtual std::vector<std::string> IdleEnergies() const = 0;

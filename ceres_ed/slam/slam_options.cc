@@ -211,6 +211,9 @@ const OptionTable<SlamOptions>& SlamOptions::Rows() {
           .In(AtLeast(0))
           .Special(0, "none")
           .OnResume(ResumeRule::kFree),
+      Row(&O::covariance,
+          "covariance",
+          "Also compute how well each frame determines the camera and the points."),
       Row(&O::num_threads, "threads", "The threads; the result does not depend on them.")
           .In(AtLeast(1))
           .Special(0, std::max(1u, std::thread::hardware_concurrency()), "auto")
@@ -226,6 +229,12 @@ const OptionTable<SlamOptions>& SlamOptions::Rows() {
 
 bool SlamOptions::IsValid(std::string* error) const {
   if (!Rows().Check(*this, error)) return false;
+  if (covariance && rigid) {
+    *error =
+        "covariance is true and rigid is true, expected one of them: they are those of a "
+        "deformation";
+    return false;
+  }
   if (feature.pixels.window % 2 == 1) return true;
   *error = "feature_window is " + std::to_string(feature.pixels.window) +
            ", expected an odd number of pixels";

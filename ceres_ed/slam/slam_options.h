@@ -215,6 +215,9 @@ struct SlamOptions {
   // Every n-th frame is compared with the batch solution of its last problem, on a copy of the map;
   // >= 0. With 0, the default, no frame is.
   int verify_every = 0;
+  // Whether each frame also computes how well its data determine the camera and the points that it
+  // has moved; default false. It needs a scene that deforms.
+  bool covariance = false;
   // The number of threads for everything in a frame, which replaces the numbers in the options
   // below; >= 1, default 1. The result does not depend on it.
   int num_threads = 1;

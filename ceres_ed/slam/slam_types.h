@@ -9,7 +9,10 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
+
+#include <Eigen/Core>
 
 namespace ceres_ed {
 
@@ -121,6 +124,10 @@ struct FrameReport {
   // The residual of a user's energy that could not be evaluated, in a sentence that names it; empty
   // if there was none. The level to which it belongs has not moved anything.
   std::string fault;
+  // The covariance of map_from_camera (SlamOptions::covariance), in metres and radians: its
+  // translation in the map frame, then a rotation vector in the camera frame. It does not exist in
+  // frames without Level I.
+  std::optional<Eigen::Matrix<double, 6, 6>> camera_covariance;
   // The comparison with the batch solution, in frames that were verified.
   BatchComparison batch;
 };

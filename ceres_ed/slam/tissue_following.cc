@@ -2,6 +2,7 @@
 // growth.
 #include <ceres_ed/slam/frame/association.h>
 #include <ceres_ed/slam/levels/edge_weights.h>
+#include <ceres_ed/slam/levels/level_covariance.h>
 #include <ceres_ed/slam/tracker.h>
 #include <ceres_ed/util/statistics.h>
 #include <ceres_ed/util/timer.h>
@@ -138,6 +139,27 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
   return observations;
 }
 
+// A frame whose covariances cannot be computed has none; its result is as good as without.
+void Tracker::MeasureCovariances(const FrameObservations& observations, FrameReport* report) {
+  std::vector<int> slots;
+  slots.reserve(visible_.size());
+  for (const VisiblePoint& point : visible_) slots.push_back(point.slot);
+  const StatusOr<std::unique_ptr<LevelCovariance>> level =
+      levels_->MeasureLevelOne(observations, slots, map_);
+  if (!level.ok()) return;
+  LevelCovariance::Matrix6d camera = (*level)->MapFromCamera();
+  if (camera.allFinite()) {
+    camera.topRows<3>() *= unit_;
+    camera.leftCols<3>() *= unit_;
+    report->camera_covariance = camera;
+  }
+  for (const VisiblePoint& point : visible_) {
+    const MapPoint there = map_.point(point.slot);
+    const Eigen::Matrix3d covariance = (*level)->Point(there.position, map_.binding(point.slot));
+    if (covariance.allFinite()) covariances_.Set(point.slot, there.id, covariance);
+  }
+}
+
 // Level II (Eq. 15).
 void Tracker::FollowHidden(bool catch_up, FrameReport* report) {
   if (!levels_->HasLevelTwo()) return;
@@ -160,6 +182,7 @@ void Tracker::Deform(const ObservedSurface& surface, bool catch_up, FrameReport*
   }
   levels_->BeginFrame();
   const FrameObservations observations = FollowSeen(surface, report);
+  if (options_.covariance) MeasureCovariances(observations, report);
   FollowHidden(catch_up, report);
   report->fault = levels_->TakeFault();
   if (batch_ != nullptr && report->number % options_.verify_every == 0) {

@@ -15,6 +15,7 @@
 #include <ceres_ed/slam/levels/batch_comparison.h>
 #include <ceres_ed/slam/levels/levels.h>
 #include <ceres_ed/slam/map/deformable_map.h>
+#include <ceres_ed/slam/map/point_covariances.h>
 #include <ceres_ed/slam/map/tissue_memory.h>
 #include <ceres_ed/slam/slam.h>
 #include <ceres_ed/util/status.h>
@@ -46,6 +47,7 @@ class Tracker final : public DeformableSlam {
   bool HasData(int node) const override {
     return levels_->point_relevant().Has(node) || node >= nodes_before_growth_;
   }
+  Eigen::Matrix3d PointCovariance(int slot) const override { return covariances_.At(slot, map_); }
   std::vector<std::string> IdleEnergies() const override { return levels_->IdleEnergies(); }
   void CatchUp() override { levels_->CatchUp(/*priors=*/nullptr, &map_); }
   void Exchange(CheckpointArchive* archive) override;
@@ -73,6 +75,8 @@ class Tracker final : public DeformableSlam {
   // Brings the nodes near the view up to date.
   void CatchUpInView(const CameraPose& camera_from_map, FrameReport* report);
   FrameObservations FollowSeen(const ObservedSurface& surface, FrameReport* report);
+  // Computes the covariances of a frame from its last Level I.
+  void MeasureCovariances(const FrameObservations& observations, FrameReport* report);
   void FollowHidden(bool catch_up, FrameReport* report);
   void Deform(const ObservedSurface& surface, bool catch_up, FrameReport* report);
   void RemoveForeground(ObservedSurface* surface, FrameReport* report);
@@ -113,6 +117,7 @@ class Tracker final : public DeformableSlam {
   bool gap_ = false;
   // The number of nodes at the start of the last growth.
   int nodes_before_growth_ = 0;
+  PointCovariances covariances_;
   // The last motion of the camera, along the directions that the data determined.
   CameraPose camera_step_;
 };

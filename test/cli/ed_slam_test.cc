@@ -2,6 +2,7 @@
 #include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/image_io.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include <gmock/gmock.h>
@@ -120,6 +121,57 @@ TEST_F(EdSlamOutputTest, RefusesToWriteIntoItsInput) {
     EXPECT_THAT(refused.err, HasSubstr("is the folder of the sequence, expected another one"));
   }
   EXPECT_FALSE(Exists("seq/frames.csv"));
+}
+
+TEST_F(EdSlamOutputTest, WritesCovariancesOnRequestAndChangesNothingElse) {
+  const std::vector<std::string> flags = {"--covariance", "--checkpoint_every=2"};
+  ASSERT_EQ(Run("out", flags).exit_code, 0);
+  ASSERT_EQ(Run("plain").exit_code, 0);
+  for (const char* name : {"map.ply", "trajectory.txt", "graph.ply"}) {
+    EXPECT_TRUE(ReadBytes(dir_ / (std::string("out/") + name)) ==
+                ReadBytes(dir_ / (std::string("plain/") + name)))
+        << name;
+  }
+  EXPECT_FALSE(Exists("plain/map_covariance.ply"));
+  EXPECT_FALSE(Exists("plain/camera_covariance.csv"));
+
+  // The steps of the camera are known: half a millimetre along x.
+  const auto poses = ReadTrajectory(dir_ / "out/trajectory.txt");
+  ASSERT_TRUE(poses.ok()) << poses.status().message();
+  auto rows = ReadCsv(dir_ / "out/camera_covariance.csv");
+  ASSERT_EQ(rows.size(), 5u);
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    EXPECT_EQ(rows[k]["frame"], std::to_string(k + 1));
+    const Eigen::Vector3d step =
+        (*poses)[k + 1].world_from_camera.translation - (*poses)[k].world_from_camera.translation;
+    const char* const names[] = {"tx_tx", "ty_ty", "tz_tz"};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double deviation = std::sqrt(std::stod(rows[k][names[axis]]));
+      EXPECT_GT(deviation, 1e-8);
+      EXPECT_LT(deviation, 1e-3);
+      EXPECT_LT(std::abs(step[axis] - (axis == 0 ? 0.0005 : 0.0)), 5.0 * deviation) << axis;
+    }
+  }
+  const LoadedCloud points = Load("out/map_covariance.ply");
+  EXPECT_EQ(points.cloud.size(), Load("out/map.ply").cloud.size());
+  const std::vector<double>& deviations = points.document.Find("vertex")->Find("std_dev")->values;
+  const auto is_known = [](double deviation) { return deviation > 0.0 && deviation < 1e-2; };
+  EXPECT_GT(std::count_if(deviations.begin(), deviations.end(), is_known),
+            0.8 * static_cast<double>(deviations.size()));
+}
+
+TEST_F(EdSlamOutputTest, ResumesWithTheSameCovariances) {
+  const std::vector<std::string> flags = {"--covariance", "--checkpoint_every=2"};
+  ASSERT_EQ(Run("whole", flags).exit_code, 0);
+  ASSERT_EQ(Run("out", {flags[0], flags[1], "--last=3"}).exit_code, 0);
+  ASSERT_EQ(Run("out", {flags[0], flags[1], "--resume"}).exit_code, 0);
+  ExpectSameContents("whole", "out");
+}
+
+TEST_F(EdSlamOutputTest, RefusesCovariancesOfARigidScene) {
+  const ProgramResult refused = Run("out", {"--covariance", "--rigid"});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, HasSubstr("covariance is true and rigid is true"));
 }
 
 TEST_F(EdSlamOutputTest, WritesNothingThroughSymbolicLinks) {

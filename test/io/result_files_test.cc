@@ -1,9 +1,12 @@
 // map.ply, trajectory.txt and tracks.csv.
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/io/results/covariance_files.h>
 #include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/io/results/tracks_csv.h>
 #include <ceres_ed/io/results/trajectory_txt.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -76,6 +79,38 @@ TEST_F(TrajectoryFile, OfAnotherSequenceIsLeftOutWithAWarning) {
   ASSERT_TRUE(poses.ok());
   EXPECT_THAT(*poses, IsEmpty());
   EXPECT_THAT(warnings_, ElementsAre(HasSubstr("trajectory.txt: time 1305031102.175304")));
+}
+
+TEST(CameraCovariance, HasTheUpperTriangleByRows) {
+  const std::string header = CameraCovarianceHeader();
+  EXPECT_EQ(header.substr(0, 26), "frame,tx_tx,tx_ty,tx_tz,tx");
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), 21);
+  Eigen::Matrix<double, 6, 6> covariance;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = 0; j < 6; ++j) covariance(i, j) = 10 * i + j;
+  }
+  EXPECT_EQ(CameraCovarianceRow(7, covariance),
+            "7,0,1,2,3,4,5,11,12,13,14,15,22,23,24,25,33,34,35,44,45,55\n");
+}
+
+TEST(MapCovariance, HasTheEntriesAndTheRootOfTheTrace) {
+  const TemporaryDirectory dir;
+  MapCovariances map;
+  map.ids = {3, 8};
+  map.points = {{1, 2, 3}, {4, 5, 6}};
+  Eigen::Matrix3d covariance;
+  covariance << 1, 0.5, 0.25, 0.5, 3, 0.125, 0.25, 0.125, 5;
+  map.covariances = {covariance, Eigen::Matrix3d::Constant(std::nan(""))};
+  ASSERT_TRUE(WriteMapCovariances(dir / "map.ply", map).ok());
+  const StatusOr<LoadedCloud> loaded = LoadCloud(dir / "map.ply");
+  ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+  EXPECT_EQ(loaded->cloud.points, map.points);
+  const PlyElement& vertices = *loaded->document.Find("vertex");
+  EXPECT_THAT(vertices.Find("id")->values, ElementsAre(3, 8));
+  EXPECT_THAT(vertices.Find("xx")->values, ElementsAre(1, -1));
+  EXPECT_THAT(vertices.Find("xz")->values, ElementsAre(0.25, -1));
+  EXPECT_THAT(vertices.Find("yz")->values, ElementsAre(0.125, -1));
+  EXPECT_THAT(vertices.Find("std_dev")->values, ElementsAre(3, -1));
 }
 
 TEST(TracksCsv, HasCommasAndAFlag) {

@@ -35,6 +35,15 @@ def render(shift=0.0, bump=0.0):
     return z.astype(np.float32)
 
 
+def test_covariance_of_the_camera_on_request(camera):
+    tracker = ceres_ed.Tracker(camera, covariance=True)
+    assert tracker.track(render()).camera_covariance is None  # The first camera is the map frame.
+    covariance = tracker.track(render(0.0005)).camera_covariance
+    assert covariance.shape == (6, 6)
+    assert (np.linalg.eigvalsh(covariance) > 0).all()
+    assert 1e-8 < np.sqrt(covariance[0, 0]) < 2e-3
+
+
 def test_a_still_scene_stays_where_it_is(camera):
     tracker = ceres_ed.Tracker(camera)
     assert tracker.camera_pose is None and len(tracker) == 0

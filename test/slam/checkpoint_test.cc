@@ -136,7 +136,7 @@ TEST(Checkpoint, SaysOfWhatVersionAnOlderOneIs) {
                               {"payload", nlohmann::json::binary({1, 2, 3})}};
   std::string bytes;
   nlohmann::json::to_cbor(old, bytes);
-  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 3"));
+  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 4"));
 }
 
 TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {

@@ -9,15 +9,15 @@
 namespace ceres_ed {
 namespace {
 
-// Calls visit(point, binding, place) for each point of the map. `place` is its current position in
-// map units and in the map frame.
+// Calls visit(slot, point, binding, place) for each point of the map. `place` is its current
+// position in map units and in the map frame.
 template <typename Visit>
 void ForEachPoint(const DeformableMap& map, const Visit& visit) {
   for (int slot = 0; slot < map.num_slots(); ++slot) {
     if (!map.alive(slot)) continue;
     const MapPoint point = map.point(slot);
     const PointBinding binding = map.binding(slot);
-    visit(point, binding, WarpPoint(map.graph(), map.state(), binding, point.position));
+    visit(slot, point, binding, WarpPoint(map.graph(), map.state(), binding, point.position));
   }
 }
 
@@ -29,7 +29,8 @@ MapSnapshot ExportMap(const DeformableSlam& slam, MapFrame frame) {
   const bool in_camera = frame == MapFrame::kCamera;
   MapSnapshot snapshot;
   ForEachPoint(
-      map, [&](const MapPoint& point, const PointBinding& binding, const Eigen::Vector3d& place) {
+      map,
+      [&](int, const MapPoint& point, const PointBinding& binding, const Eigen::Vector3d& place) {
         const Eigen::Vector3d normal = WarpNormal(map.state(), binding, point.normal);
         snapshot.points.push_back(slam.unit() * (in_camera ? camera_from_map * place : place));
         snapshot.normals.push_back(in_camera ? camera_from_map.rotation * normal : normal);
@@ -43,21 +44,35 @@ MapSnapshot ExportMap(const DeformableSlam& slam, MapFrame frame) {
   return snapshot;
 }
 
+MapCovariances ExportMapCovariances(const DeformableSlam& slam) {
+  const double unit = slam.unit();
+  MapCovariances map;
+  ForEachPoint(
+      slam.map(),
+      [&](int slot, const MapPoint& point, const PointBinding&, const Eigen::Vector3d& place) {
+        map.ids.push_back(point.id);
+        map.points.push_back(unit * place);
+        map.covariances.push_back(unit * unit * slam.PointCovariance(slot));
+      });
+  return map;
+}
+
 std::vector<LivePoint> ExportLivePoints(const DeformableSlam& slam) {
   const DeformableMap& map = slam.map();
   std::vector<LivePoint> points;
   points.reserve(static_cast<std::size_t>(map.num_points()));
-  ForEachPoint(map, [&](const MapPoint& point, const PointBinding&, const Eigen::Vector3d& place) {
-    LivePoint live;
-    const Eigen::Vector3d in_camera = slam.camera_from_map() * place;
-    live.position = (slam.unit() * in_camera).cast<float>();
-    live.id = point.id;
-    live.birth_frame = point.birth_frame;
-    live.birth_position = (slam.unit() * point.birth_position).cast<float>();
-    live.stability = static_cast<float>(point.Stability());
-    live.last_seen = point.last_seen;
-    points.push_back(live);
-  });
+  ForEachPoint(map,
+               [&](int, const MapPoint& point, const PointBinding&, const Eigen::Vector3d& place) {
+                 LivePoint live;
+                 const Eigen::Vector3d in_camera = slam.camera_from_map() * place;
+                 live.position = (slam.unit() * in_camera).cast<float>();
+                 live.id = point.id;
+                 live.birth_frame = point.birth_frame;
+                 live.birth_position = (slam.unit() * point.birth_position).cast<float>();
+                 live.stability = static_cast<float>(point.Stability());
+                 live.last_seen = point.last_seen;
+                 points.push_back(live);
+               });
   return points;
 }
 

@@ -4,6 +4,7 @@
 
 #include <ceres_ed/graph/deformation_state.h>
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/io/results/covariance_files.h>
 #include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/slam/slam.h>
@@ -25,6 +26,9 @@ enum class MapFrame {
 
 // Returns all points in their current positions, as the nodes deform them.
 MapSnapshot ExportMap(const DeformableSlam& slam, MapFrame frame = MapFrame::kMap);
+
+// Returns the covariance of each point in the map frame (DeformableSlam::PointCovariance).
+MapCovariances ExportMapCovariances(const DeformableSlam& slam);
 
 // Returns all points in the camera frame, with the positions at which they were created, for live
 // clouds.

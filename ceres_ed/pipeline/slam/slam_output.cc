@@ -3,6 +3,7 @@
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/graph_io.h>
 #include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/results/covariance_files.h>
 #include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/io/results/map_ply.h>
 #include <ceres_ed/io/results/tracks_csv.h>
@@ -14,7 +15,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <string_view>
+#include <iterator>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -33,6 +34,8 @@ constexpr char kMasks[] = "masks";
 constexpr char kLive[] = "live";
 constexpr char kMap[] = "map.ply";
 constexpr char kGraph[] = "graph.ply";
+constexpr char kCameraCovariance[] = "camera_covariance.csv";
+constexpr char kMapCovariance[] = "map_covariance.ply";
 
 // Returns the name without the ending of a temporary file: a killed run may have left a file
 // NAME.tmp.PID.N.
@@ -40,13 +43,16 @@ std::string WithoutTemporaryEnd(const std::string& name) {
   return name.substr(0, std::min(name.find(".tmp."), name.size()));
 }
 
-bool IsResultName(const std::string& name) {
-  for (const char* known :
-       {kFrames, kTrajectory, kTracks, kMap, kGraph, kReportName, kCheckpointName}) {
-    if (name == known) return true;
-  }
-  return false;
+// The files of a result that grow frame by frame, and those that are replaced.
+constexpr const char* kGrowing[] = {kFrames, kTrajectory, kTracks, kCameraCovariance};
+constexpr const char* kReplaced[] = {kMap, kMapCovariance, kGraph, kReportName, kCheckpointName};
+
+template <std::size_t size>
+bool Has(const char* const (&names)[size], const std::string& name) {
+  return std::find(std::begin(names), std::end(names), name) != std::end(names);
 }
+
+bool IsResultName(const std::string& name) { return Has(kGrowing, name) || Has(kReplaced, name); }
 
 // Returns whether this is the name of a mask, or what a killed run has left of one.
 bool IsMaskName(const std::string& name) {
@@ -88,15 +94,14 @@ void RemoveLeftOvers(const std::string& directory, bool results_too) {
 // folders that lie elsewhere. A run that goes on in its own files refuses links to them instead
 // (`results_too` is false). Links to devices and pipes stay.
 Status RemoveLinks(const std::string& directory, bool results_too) {
-  for (const char* name :
-       {kFrames, kTrajectory, kTracks, kMap, kGraph, kReportName, kCheckpointName, kMasks, kLive}) {
+  std::vector<std::string> names = {kMasks, kLive};
+  names.insert(names.end(), std::begin(kGrowing), std::end(kGrowing));
+  names.insert(names.end(), std::begin(kReplaced), std::end(kReplaced));
+  for (const std::string& name : names) {
     const std::string path = directory + "/" + name;
     std::error_code error;
-    if (!fs::is_symlink(path, error)) continue;
-    if (fs::is_other(path, error)) continue;
-    const std::string_view text(name);
-    const bool grows = text == kFrames || text == kTrajectory || text == kTracks;
-    if (!results_too && grows) {
+    if (!fs::is_symlink(path, error) || fs::is_other(path, error)) continue;
+    if (!results_too && Has(kGrowing, name)) {
       return Status::Error(path + ": is a symbolic link, expected the file that the run has begun");
     }
     if (!fs::remove(path, error)) return Status::Error(path + ": cannot write: " + error.message());
@@ -119,18 +124,19 @@ Status MakeFolders(const std::string& directory, bool results_too) {
   return probe.ok() ? Status::Ok() : probe.status();
 }
 
-// The sizes of frames.csv, trajectory.txt and tracks.csv in bytes; -1 for a file that does not
-// exist yet.
+// The sizes in bytes of the files that grow; -1 for a file that does not exist yet.
 struct FileSizes {
   double frames = -1.0;
   double trajectory = -1.0;
   double tracks = -1.0;
+  double covariance = -1.0;
 
   void Exchange(CheckpointArchive* archive) {
     archive->Enter("file_sizes");
     archive->Value("frames", &frames);
     archive->Value("trajectory", &trajectory);
     archive->Value("tracks", &tracks);
+    archive->Value("covariance", &covariance);
     archive->Leave();
   }
 };
@@ -187,6 +193,9 @@ StatusOr<std::unique_ptr<SlamOutput>> SlamOutput::Reopen(const std::string& dire
     status = ReopenFile(output->Path(kTrajectory), sizes.trajectory, &output->trajectory_);
   }
   if (status.ok()) status = ReopenFile(output->Path(kTracks), sizes.tracks, &output->tracks_);
+  if (status.ok()) {
+    status = ReopenFile(output->Path(kCameraCovariance), sizes.covariance, &output->covariance_);
+  }
   if (!status.ok()) return status;
   return StatusOr<std::unique_ptr<SlamOutput>>(std::move(output));
 }
@@ -199,6 +208,7 @@ void SlamOutput::Save(CheckpointArchive* archive) const {
   sizes.frames = size(frames_);
   sizes.trajectory = size(trajectory_);
   sizes.tracks = size(tracks_);
+  sizes.covariance = size(covariance_);
   sizes.Exchange(archive);
 }
 
@@ -217,6 +227,10 @@ Status SlamOutput::WriteFrame(const FrameRecord& record,
   }
   if (options.tracked != nullptr) {
     Status status = WriteTracks(record.number, slam, *options.tracked);
+    if (!status.ok()) return status;
+  }
+  if (options.camera_covariance != nullptr) {
+    Status status = WriteCovariance(record.number, *options.camera_covariance);
     if (!status.ok()) return status;
   }
   return trajectory_.Append(TrajectoryRow(options.time_s, ExportCameraPose(slam)));
@@ -252,8 +266,22 @@ Status SlamOutput::WriteTracks(int frame,
   return tracks_.Append(rows);
 }
 
-Status SlamOutput::WriteMap(const DeformableSlam& slam) const {
+Status SlamOutput::WriteCovariance(int frame, const Eigen::Matrix<double, 6, 6>& camera) {
+  std::string rows;
+  if (!covariance_.is_open()) {
+    StatusOr<AppendFile> file = AppendFile::Create(Path(kCameraCovariance));
+    if (!file.ok()) return file.status();
+    covariance_ = *std::move(file);
+    rows = CameraCovarianceHeader();
+  }
+  return covariance_.Append(rows + CameraCovarianceRow(frame, camera));
+}
+
+Status SlamOutput::WriteMap(const DeformableSlam& slam, bool with_covariances) const {
   Status status = WriteMapCloud(Path(kMap), ExportMap(slam));
+  if (status.ok() && with_covariances) {
+    status = WriteMapCovariances(Path(kMapCovariance), ExportMapCovariances(slam));
+  }
   if (!status.ok()) return status;
   const Warp warp = ExportWarp(slam);
   GraphWriteOptions options;

@@ -14,6 +14,8 @@
 #include <memory>
 #include <string>
 
+#include <Eigen/Core>
+
 namespace ceres_ed {
 
 inline constexpr char kReportName[] = "report.json";
@@ -29,6 +31,8 @@ struct FrameOutput {
   const MaskImage* mask = nullptr;
   // The points that are followed; null if there are none.
   const TrackedPoints* tracked = nullptr;
+  // The covariance of the camera (FrameReport); null if there is none.
+  const Eigen::Matrix<double, 6, 6>* camera_covariance = nullptr;
 };
 
 // Returns whether a folder has the result of a run that has ended or reached a limit, which must
@@ -36,9 +40,9 @@ struct FrameOutput {
 // result.
 bool HoldsResult(const std::string& directory);
 
-// Writes the output of a run. frames.csv, trajectory.txt, tracks.csv and live/ grow frame by frame;
-// WriteMap() replaces map.ply and graph.ply. Whenever the program ends, even if it is killed, all
-// files and rows are complete.
+// Writes the output of a run. frames.csv, trajectory.txt, tracks.csv, camera_covariance.csv and
+// live/ grow frame by frame; WriteMap() replaces map.ply, map_covariance.ply and graph.ply.
+// Whenever the program ends, even if it is killed, all files and rows are complete.
 class SlamOutput {
  public:
   // Creates the folder if it does not exist, and removes the files that an earlier run has left in
@@ -65,8 +69,8 @@ class SlamOutput {
   Status WriteRecord(const FrameRecord& record);
 
   // Writes map.ply (the current map, in the map frame and in metres) and graph.ply (its nodes, in
-  // the same frame and unit).
-  Status WriteMap(const DeformableSlam& slam) const;
+  // the same frame and unit), and map_covariance.ply if `with_covariances`.
+  Status WriteMap(const DeformableSlam& slam, bool with_covariances) const;
 
   // Saves the size of each growing file, for Reopen().
   void Save(CheckpointArchive* archive) const;
@@ -79,14 +83,16 @@ class SlamOutput {
       : directory_(directory), camera_(camera) {}
 
   Status WriteMask(int frame, const MaskImage& mask) const;
+  Status WriteCovariance(int frame, const Eigen::Matrix<double, 6, 6>& camera);
   Status WriteTracks(int frame, const DeformableSlam& slam, const TrackedPoints& tracked);
 
   std::string directory_;
   PinholeCamera camera_;
   AppendFile frames_;
   AppendFile trajectory_;
-  // The file is created when its first row is written.
+  // These files are created when their first rows are written.
   AppendFile tracks_;
+  AppendFile covariance_;
 };
 
 }  // namespace ceres_ed

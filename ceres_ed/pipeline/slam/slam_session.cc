@@ -197,6 +197,7 @@ Outcome SlamSession::Track(const DepthFrame& frame, int index, FrameRecord* reco
   const MaskImage mask = settings_.write_masks ? TissueMask(frame.depth, *slam_) : MaskImage();
   options.mask = settings_.write_masks ? &mask : nullptr;
   options.tracked = tracked_.size() > 0 ? &tracked_ : nullptr;
+  if (report.camera_covariance.has_value()) options.camera_covariance = &*report.camera_covariance;
   const Status status = output_->WriteFrame(*record, *slam_, options);
   (*record)["t_write"] = timer.Seconds();
   return status.ok() ? Outcome::Done() : Outcome::BadInput(status);
@@ -257,7 +258,7 @@ SlamRun SlamSession::MakeRun() const {
 
 Status SlamSession::WriteResults(const SlamRun& run) const {
   if (slam_->unit() > 0.0) {
-    Status status = output_->WriteMap(*slam_);
+    Status status = output_->WriteMap(*slam_, settings_.options.covariance);
     if (!status.ok()) return status;
   }
   return WriteReport(output_->Path(kReportName), SlamReport(run));

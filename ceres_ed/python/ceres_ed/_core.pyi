@@ -467,6 +467,7 @@ class TrackerOptions:
     memory_likeness: float
     memory_min_common: int
     verify_every: int
+    covariance: bool
     threads: int
     feature_count: int
     feature_max_deviations: float
@@ -496,8 +497,8 @@ class TrackerOptions:
             neighbors: int = ..., features: bool = ..., rounds: int = ...,
             max_observations: int = ..., max_point_weight: float = ...,
             memory_max_moments: int = ..., memory_likeness: float = ...,
-            memory_min_common: int = ..., verify_every: int = ..., threads: int = ...,
-            feature_count: int = ..., feature_max_deviations: float = ...,
+            memory_min_common: int = ..., verify_every: int = ..., covariance: bool = ...,
+            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
             feature_window: int = ..., feature_pyramid_levels: int = ...,
             feature_light_radius: float = ..., feature_max_round_trip: float = ...,
             feature_min_distance: float = ..., feature_quality: float = ...,
@@ -527,6 +528,8 @@ class Camera:
 
 
 class FrameReport:
+    @property
+    def camera_covariance(self) -> Optional[NDArray[np.float64]]: ...
     @property
     def number(self) -> int: ...
     @property
@@ -599,8 +602,8 @@ class Tracker:
             nodes_in_view: int = ..., neighbors: int = ..., features: bool = ..., rounds: int = ...,
             max_observations: int = ..., max_point_weight: float = ...,
             memory_max_moments: int = ..., memory_likeness: float = ...,
-            memory_min_common: int = ..., verify_every: int = ..., threads: int = ...,
-            feature_count: int = ..., feature_max_deviations: float = ...,
+            memory_min_common: int = ..., verify_every: int = ..., covariance: bool = ...,
+            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
             feature_window: int = ..., feature_pyramid_levels: int = ...,
             feature_light_radius: float = ..., feature_max_round_trip: float = ...,
             feature_min_distance: float = ..., feature_quality: float = ...,

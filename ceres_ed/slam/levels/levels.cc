@@ -34,7 +34,7 @@ std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
           {"node_prior", {"node_prior", options.node_prior_weight, {}, {}}, {}},
           {"point_to_plane", {"point_to_plane", options.plane_weight, tukey, {}}, planes},
           {"feature", {"landmark", feature_weight, tukey, {}}, features},
-          {"pose_prior", {"pose_prior", 1.0, {}, spreads}, camera}};
+          {kPosePrior, {"pose_prior", 1.0, {}, spreads}, camera}};
 }
 
 // Returns the term of a user's energy: observations are weighted like those of the levels, and
@@ -134,20 +134,10 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   LevelWindow window = windows_.Build(map->graph(), map->state(), nodes);
   if (priors != nullptr) priors->UpdatePriors(window.nodes, map);
   const WindowObservations seen(observations, windows_, *map, window);
-  TermInputs inputs;
-  inputs.context = seen.Context(window);
   const std::vector<Eigen::Vector3d> previous = PreviousOf(window, *map);
-  if (!previous.empty()) inputs.context.node_previous = &previous;
-  inputs.context.has_camera = true;
-  inputs.context.camera_prior = observations.camera_prior;
-  // The weight of the data is per PR node and does not depend on the density of points.
-  inputs.nodes_per_observation =
-      point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
-  inputs.features = &seen.features();
-  inputs.correspondence_width = observations.plane_width;
-  inputs.feature_width = observations.feature_width;
   ProblemBuilder builder(window.graph, /*has_camera=*/true);
-  terms_.AddTo(inputs, TermLevels::kLevelOne, &builder);
+  terms_.AddTo(
+      LevelOneInputs(observations, seen, window, previous), TermLevels::kLevelOne, &builder);
   const bool camera = options_.camera_variable;
   const ProblemConfig config = window.Config(camera, nodes.boundary_edges);
   const auto solve = [&](const SolverOptions& steps, SolveSummary* summary) {
@@ -161,6 +151,24 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
   if (camera) map->SetCamera(window.state.camera_from_map);
   pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/Eliminates());
   return report;
+}
+
+TermInputs Levels::LevelOneInputs(const FrameObservations& observations,
+                                  const WindowObservations& seen,
+                                  const LevelWindow& window,
+                                  const std::vector<Eigen::Vector3d>& previous) const {
+  TermInputs inputs;
+  inputs.context = seen.Context(window);
+  if (!previous.empty()) inputs.context.node_previous = &previous;
+  inputs.context.has_camera = true;
+  inputs.context.camera_prior = observations.camera_prior;
+  // The weight of the data is per PR node and does not depend on the density of points.
+  inputs.nodes_per_observation =
+      point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
+  inputs.features = &seen.features();
+  inputs.correspondence_width = observations.plane_width;
+  inputs.feature_width = observations.feature_width;
+  return inputs;
 }
 
 std::vector<Eigen::Vector3d> Levels::PreviousOf(const LevelWindow& window,

@@ -27,6 +27,12 @@
 
 namespace ceres_ed {
 
+class LevelCovariance;
+class WindowObservations;
+
+// The label of the term that knows the camera from the rigid alignment of the frame.
+inline constexpr char kPosePrior[] = "pose_prior";
+
 // What a level did.
 struct LevelReport {
   SolveStatus status = SolveStatus::kConverged;
@@ -61,6 +67,14 @@ class Levels {
   LevelReport ConvergeLevelOne(const FrameObservations& observations,
                                NodePriorSource* priors,
                                DeformableMap* map);
+
+  // Returns how well the last Level I, whose observations are given, determines the camera and the
+  // nodes that it has moved (level_covariance.h). `slots` has the points of the map whose
+  // covariances are wanted; those of others take longer. It is an error if a residual cannot be
+  // evaluated.
+  StatusOr<std::unique_ptr<LevelCovariance>> MeasureLevelOne(const FrameObservations& observations,
+                                                             const std::vector<int>& slots,
+                                                             const DeformableMap& map);
 
   // Solves Level II (Eq. 15), which moves all PI nodes, or those whose surroundings have changed.
   LevelReport SolveLevelTwo(NodePriorSource* priors, DeformableMap* map);
@@ -116,6 +130,11 @@ class Levels {
                             const SolverOptions& options,
                             NodePriorSource* priors,
                             DeformableMap* map);
+  // Returns what the terms of Level I look at. `seen` and `previous` must outlive it.
+  TermInputs LevelOneInputs(const FrameObservations& observations,
+                            const WindowObservations& seen,
+                            const LevelWindow& window,
+                            const std::vector<Eigen::Vector3d>& previous) const;
   // Solves Level II for some PI nodes while the others are held.
   LevelReport SolveHidden(const std::vector<int>& nodes,
                           NodePriorSource* priors,
