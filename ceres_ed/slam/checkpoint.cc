@@ -80,6 +80,48 @@ std::string FileTail(std::string_view payload) {
   return bytes;
 }
 
+// Accepts CBOR whose lists are no longer than the file and whose depth is that of checkpoints: the
+// library throws at other lengths whatever it is told, and calls itself for each level.
+class BoundedCbor : public nlohmann::json_sax<json> {
+ public:
+  explicit BoundedCbor(std::size_t size) : size_(size) {}
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return true; }
+  bool number_integer(number_integer_t) override { return true; }
+  bool number_unsigned(number_unsigned_t) override { return true; }
+  bool number_float(number_float_t, const string_t&) override { return true; }
+  bool string(string_t&) override { return true; }
+  bool binary(binary_t&) override { return true; }
+  bool key(string_t&) override { return true; }
+  bool start_object(std::size_t length) override { return Enter(length); }
+  bool start_array(std::size_t length) override { return Enter(length); }
+  bool end_object() override { return --depth_ >= 0; }
+  bool end_array() override { return --depth_ >= 0; }
+  bool parse_error(std::size_t, const std::string&, const json::exception&) override {
+    return false;
+  }
+
+ private:
+  bool Enter(std::size_t length) {
+    constexpr int kMaxDepth = 32;
+    constexpr auto kUnknownLength = static_cast<std::size_t>(-1);
+    return (length == kUnknownLength || length <= size_) && ++depth_ <= kMaxDepth;
+  }
+
+  std::size_t size_;
+  int depth_ = 0;
+};
+
+// Returns the value of CBOR, discarded if it is none.
+json ParseCbor(std::string_view bytes) {
+  BoundedCbor bounded(bytes.size());
+  if (!json::sax_parse(bytes, &bounded, json::input_format_t::cbor)) {
+    return json(json::value_t::discarded);
+  }
+  return json::from_cbor(bytes, /*strict=*/true, /*allow_exceptions=*/false);
+}
+
 // Returns the payload of a file in the form that CheckpointWriter produces, or nothing if the file
 // is incomplete.
 std::string_view PayloadOf(std::string_view file) {
@@ -94,7 +136,7 @@ std::string_view PayloadOf(std::string_view file) {
 
 // Returns the reason why PayloadOf() does not accept a file.
 Status WhatIsWrong(std::string_view bytes) {
-  const json file = json::from_cbor(bytes, /*strict=*/true, /*allow_exceptions=*/false);
+  const json file = ParseCbor(bytes);
   if (!file.is_object() || file.value("format", json()) != kFormat) {
     return Status::Error("is no checkpoint, expected one that a run has left");
   }
@@ -184,7 +226,7 @@ StatusOr<std::unique_ptr<CheckpointReader>> CheckpointReader::Open(std::string_v
   const std::string_view payload = PayloadOf(bytes);
   if (payload.empty()) return WhatIsWrong(bytes);
   std::unique_ptr<CheckpointReader> reader(new CheckpointReader);
-  reader->impl_->root = json::from_cbor(payload, true, false);
+  reader->impl_->root = ParseCbor(payload);
   if (!reader->impl_->root.is_object()) return Status::Error("has no contents, expected a state");
   reader->impl_->groups = {&reader->impl_->root};
   return StatusOr<std::unique_ptr<CheckpointReader>>(std::move(reader));

@@ -129,6 +129,16 @@ TEST(Checkpoint, RefusesEveryFlippedByteAndEveryCut) {
   EXPECT_THAT(OpenError("{}"), HasSubstr("is no checkpoint"));
 }
 
+TEST(Checkpoint, RefusesLengthsAndDepthsThatNoFileHas) {
+  // A list of 2^63 entries, a map of as many, and lists in lists.
+  for (const std::string& bytes : {"\x9b\x80" + std::string(7, '\0'),
+                                   "\xbb\x80" + std::string(7, '\0'),
+                                   "\xa1" + std::string(1 << 20, '\x61'),
+                                   std::string(1 << 20, '\x81')}) {
+    EXPECT_THAT(OpenError(bytes), HasSubstr("is no checkpoint"));
+  }
+}
+
 TEST(Checkpoint, SaysOfWhatVersionAnOlderOneIs) {
   // The error names the version of a checkpoint with a short header, as version 2 wrote it.
   const nlohmann::json old = {{"format", "ceres_ed checkpoint"},
