@@ -1,5 +1,6 @@
 #include "ceres_ed/io/cloud_io.h"
 
+#include <ceres_ed/geometry/polygon_triangles.h>
 #include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 
@@ -159,7 +160,7 @@ class CloudBuilder {
         if (!IsVertex(polygon[i])) return IndexError(face, polygon[i]);
       }
       if (size < 3) ++small_polygons_;
-      for (std::size_t i = 2; i < size; ++i) AddTriangle(polygon[0], polygon[i - 1], polygon[i]);
+      AddPolygon(polygon, size);
       polygon += size;
     }
     WarnOfDroppedFaces();
@@ -169,6 +170,22 @@ class CloudBuilder {
   bool IsVertex(double index) const {
     return index >= 0.0 && index < static_cast<double>(vertices_->count) &&
            index == std::floor(index);
+  }
+
+  // Adds the triangles of a polygon. One with corners that were left out is a fan.
+  void AddPolygon(const double* polygon, std::size_t size) {
+    std::vector<Eigen::Vector3d> corners;
+    for (std::size_t i = 0; i < size && size > 3; ++i) {
+      const int point = point_of_vertex_[static_cast<std::size_t>(polygon[i])];
+      if (point >= 0) corners.push_back(loaded_.cloud.points[point]);
+    }
+    if (size > 3 && corners.size() == size) {
+      for (const std::array<int, 3>& t : PolygonTriangles(corners)) {
+        AddTriangle(polygon[t[0]], polygon[t[1]], polygon[t[2]]);
+      }
+      return;
+    }
+    for (std::size_t i = 2; i < size; ++i) AddTriangle(polygon[0], polygon[i - 1], polygon[i]);
   }
 
   void AddTriangle(double a, double b, double c) {

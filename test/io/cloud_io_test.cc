@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -100,6 +101,26 @@ TEST_F(CloudIo, FansPolygonsOfAnySizeInEveryEncoding) {
       EXPECT_FALSE(loaded->cloud.HasNormals());
     }
   }
+}
+
+TEST_F(CloudIo, CutsConcavePolygonsWithoutOverlap) {
+  // An L whose first corner does not see all others, and the same with a corner that is not finite.
+  const std::string head =
+      "ply\nformat ascii 1.0\nelement vertex 6\nproperty double x\nproperty double y\n"
+      "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  const std::string faces = "6 1 2 3 4 5 0\n";
+  const StatusOr<LoadedCloud> loaded =
+      Load(head + "0 0 0\n2 0 0\n2 1 0\n1 1 0\n1 2 0\n0 2 0\n" + faces);
+  ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+  ASSERT_EQ(loaded->cloud.triangles.size(), 4u);
+  const std::vector<Eigen::Vector3d>& p = loaded->cloud.points;
+  for (const Triangle& t : loaded->cloud.triangles) {
+    EXPECT_GT((p[t[1]] - p[t[0]]).cross(p[t[2]] - p[t[0]]).z(), 0.0);
+  }
+  const StatusOr<LoadedCloud> part =
+      Load(head + "0 0 0\n2 0 0\n2 1 0\n1 1 0\nnan 2 0\n0 2 0\n" + faces);
+  ASSERT_TRUE(part.ok()) << part.status().message();
+  EXPECT_EQ(part->cloud.triangles.size(), 2u);
 }
 
 TEST_F(CloudIo, TakesCoordinatesOfAnyTypeInAnyOrderAndVertexIndex) {
