@@ -133,11 +133,17 @@ bool EnclosesBody(const PointCloud& cloud, const SurfaceTopology& topology) {
 
 int AddVolume(const PointCloud& cloud,
               const std::vector<int>& node_points,
-              double spacing,
+              double wanted_spacing,
               double weight,
               DeformationGraph* graph) {
-  CHECK_GT(spacing, 0.0);
+  CHECK_GT(wanted_spacing, 0.0);
   CHECK_EQ(static_cast<int>(node_points.size()), graph->num_nodes());
+  // A coarse mesh has no room for nodes that are as near to each other as was wanted. Without a
+  // bound the body would get any number of them.
+  constexpr double kFinest = 0.5;
+  const double area_of_node =
+      SurfaceArea(cloud.points, cloud.triangles) / std::max(1, graph->num_nodes());
+  const double spacing = std::max(wanted_spacing, kFinest * std::sqrt(area_of_node));
   const InsideGrid inside(cloud, spacing / kCellsPerSpacing);
   AddInnerNodes(inside, spacing, graph);
   const int num_surface = graph->num_surface_nodes();

@@ -19,8 +19,10 @@ bool EnclosesBody(const PointCloud& cloud, const SurfaceTopology& topology);
 // Fills the body within the closed surface `cloud`. `graph` has nodes at the points `node_points`
 // of the surface, about `spacing` > 0 apart in the unit of the points.
 //
-// Inner nodes are added on a cubic grid, one spacing apart, as far as they are inside and no nearer
-// than 0.8 spacings to a node of the surface. Edges (in both directions, all of the weight `weight`
+// Inner nodes are added on a cubic grid, one spacing apart (more if the nodes of the surface are on
+// average more than two spacings apart, as those of a coarse mesh may be), as far as they are
+// inside and no nearer than 0.8 spacings to a node of the surface. Edges (in both directions, all
+// of the weight `weight`
 // >= 0) join inner nodes with all nodes within 1.5 spacings. Edges of the weight 1 join nodes of
 // the surface that face each other through the body, at most two spacings apart, as in a limb that
 // has no room for inner nodes. No edge leaves the body. Returns the number of edges that were

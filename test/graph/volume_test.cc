@@ -68,6 +68,14 @@ TEST(EnclosesBody, KnowsClosedSurfacesAndThoseWithSmallHoles) {
   EXPECT_FALSE(EnclosesBody(PointCloud(), BuildTopology(PointCloud())));
 }
 
+TEST(AddVolume, HasNoMoreNodesThanACoarseMeshHasRoomFor) {
+  // Every vertex is a node; a grid of the wanted pitch would have 10^21 nodes.
+  const PointCloud ball = MakeSphereMesh(2);
+  const DeformationGraph graph = Build(ball, BodyOptions(1e-7)).graph;
+  EXPECT_GT(graph.num_inner_nodes(), 0);
+  EXPECT_LT(graph.num_inner_nodes(), 20 * static_cast<int>(ball.size()));
+}
+
 TEST(AddVolume, LeavesTheSurfaceAsItIs) {
   const PointCloud ball = MakeSphereMesh(3);
   GraphOptions options = BodyOptions(0.3);
