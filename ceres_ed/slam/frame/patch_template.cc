@@ -48,13 +48,12 @@ bool Normalize(Values* values) {
   return true;
 }
 
-// Samples a picture at every `kStep`-th pixel of a template around `pixel`, and normalizes. Returns
-// false if that is not possible.
-template <int kStep, typename Values>
+// Samples a picture at the pixels of a template around `pixel`, and normalizes. Returns false if
+// that is not possible.
 bool Look(ImageView<std::uint8_t> image,
           const Eigen::Vector2d& pixel,
           const Eigen::Matrix2d& now_from_then,
-          Values* values) {
+          Samples* values) {
   // The corners of a parallelogram bound it.
   for (const double x : {-kRadius, kRadius}) {
     for (const double y : {-kRadius, kRadius}) {
@@ -64,14 +63,38 @@ bool Look(ImageView<std::uint8_t> image,
   }
   const Eigen::Vector2f middle = pixel.cast<float>();
   const Eigen::Matrix2f map = now_from_then.cast<float>();
-  int k = 0;
-  for (int y = -kRadius; y <= kRadius; y += kStep) {
-    const float u0 = middle.x() + map(0, 1) * static_cast<float>(y);
-    const float v0 = middle.y() + map(1, 1) * static_cast<float>(y);
-    for (int x = -kRadius; x <= kRadius; x += kStep, ++k) {
-      (*values)[k] = Sample(
-          image, u0 + map(0, 0) * static_cast<float>(x), v0 + map(1, 0) * static_cast<float>(x));
+  // In three loops, of which the compiler can vectorise the first and the last: the places, the
+  // pixels, and the interpolation.
+  std::array<float, kCount> a, b;
+  std::array<int, kCount> first, above, below;
+  for (int y = 0; y < kWidth; ++y) {
+    const float u0 = middle.x() + map(0, 1) * static_cast<float>(y - kRadius);
+    const float v0 = middle.y() + map(1, 1) * static_cast<float>(y - kRadius);
+    for (int x = 0; x < kWidth; ++x) {
+      const float u = u0 + map(0, 0) * static_cast<float>(x - kRadius);
+      const float v = v0 + map(1, 0) * static_cast<float>(x - kRadius);
+      const int i = static_cast<int>(u);
+      const int j = static_cast<int>(v);
+      const int k = y * kWidth + x;
+      a[k] = u - static_cast<float>(i);
+      b[k] = v - static_cast<float>(j);
+      first[k] = j * image.width() + i;
     }
+  }
+  for (int k = 0; k < kCount; ++k) {
+    // Two neighbours in one number.
+    const std::uint8_t* row = image.pixels() + first[k];
+    const std::uint8_t* next = row + image.width();
+    above[k] = row[0] | row[1] << 8;
+    below[k] = next[0] | next[1] << 8;
+  }
+  const auto between = [](int pair, float share) {
+    const auto left = static_cast<float>(pair & 255);
+    return left + share * (static_cast<float>(pair >> 8) - left);
+  };
+  for (int k = 0; k < kCount; ++k) {
+    const float top = between(above[k], a[k]);
+    (*values)[k] = top + b[k] * (between(below[k], a[k]) - top);
   }
   return Normalize(values);
 }
@@ -125,7 +148,7 @@ class LevelTemplate {
     double correlation = -1.0;
     const Eigen::Vector2d start = *pixel;
     for (int step = 0; step < kMaxSteps; ++step) {
-      if (!Look<1>(image, *pixel, now_from_then, &samples)) return -1.0;
+      if (!Look(image, *pixel, now_from_then, &samples)) return -1.0;
       correlation = static_cast<double>((samples * values_).sum());
       const Samples error = samples - values_;
       const Eigen::Vector2d shift =
@@ -148,14 +171,47 @@ class LevelTemplate {
   bool valid_ = false;
 };
 
+// A piece of a picture as numbers, relative to the middle grey, because squares of them are summed.
+// It continues to the right of the picture, so that vectors of kLanes pixels can be read.
+class GrayWindow {
+ public:
+  static constexpr int kLanes = 8;
+  static constexpr int kMostSide = 64;
+
+  // Copies the columns [u0, u1] and rows [v0, v1], which lie in the picture. Returns false if these
+  // are too many.
+  bool Copy(ImageView<std::uint8_t> image, int u0, int v0, int u1, int v1) {
+    u0_ = u0;
+    v0_ = v0;
+    const int width = u1 - u0 + 1;
+    if (width + kLanes > kMostSide || v1 - v0 >= kMostSide) return false;
+    for (int v = v0; v <= v1; ++v) {
+      const std::uint8_t* row =
+          image.pixels() + static_cast<std::ptrdiff_t>(v) * image.width() + u0;
+      float* copy = &values_[(v - v0) * kMostSide];
+      for (int i = 0; i < width; ++i) copy[i] = static_cast<float>(row[i]) - 128.0f;
+      std::fill_n(copy + width, kLanes, 0.0f);
+    }
+    return true;
+  }
+
+  // Returns the values at a pixel and to the right of it.
+  const float* At(int u, int v) const { return &values_[(v - v0_) * kMostSide + u - u0_]; }
+
+ private:
+  int u0_ = 0;
+  int v0_ = 0;
+  std::array<float, kMostSide * kMostSide> values_;
+};
+
 // The correlations of the coarse template with a picture, with its middle on a grid of pixels. The
 // picture is sampled between pixels at the same fractions for all places of the grid, so that each
-// pixel of the template is compared with all places at once.
+// pixel of the template is compared with many places at once.
 class GridCorrelation {
  public:
   // Computes the correlations at whole pixels around `middle` that are at most `steps` <=
   // kMostSteps away in each direction. Those where a part of the template lies outside of the
-  // picture are -1.
+  // picture are -1, and so are all if the template is stretched more than about three times.
   GridCorrelation(const ThinSamples& wanted,
                   ImageView<std::uint8_t> image,
                   const Eigen::Matrix2d& now_from_then,
@@ -166,9 +222,24 @@ class GridCorrelation {
     const Eigen::Vector2d reach = kRadius * now_from_then.cwiseAbs().rowwise().sum();
     const Range i = FindRange(middle.x(), reach.x(), image.width(), steps);
     const Range j = FindRange(middle.y(), reach.y(), image.height(), steps);
+    if (i.begin >= i.end || j.begin >= j.end) return;
+    const Eigen::Vector2d first = middle + Eigen::Vector2d(i.begin - steps, j.begin - steps);
+    const Eigen::Vector2d last = middle + Eigen::Vector2d(i.end - 1 - steps, j.end - 1 - steps);
+    const Eigen::Vector2i low = (first - reach).array().max(0.0).cast<int>();
+    const Eigen::Vector2i high = (last + reach).cast<int>().array() + 1;
+    if (!window_.Copy(image,
+                      low.x(),
+                      low.y(),
+                      std::min(high.x(), image.width() - 1),
+                      std::min(high.y(), image.height() - 1))) {
+      return;
+    }
     for (int row = j.begin; row < j.end; ++row) {
-      const Eigen::Vector2d start = middle + Eigen::Vector2d(i.begin - steps, row - steps);
-      CorrelateRow(wanted, image, now_from_then, start, i.end - i.begin, &At(i.begin, row));
+      for (int column = i.begin; column < i.end; column += GrayWindow::kLanes) {
+        const int count = std::min(i.end - column, GrayWindow::kLanes);
+        const Eigen::Vector2d start = middle + Eigen::Vector2d(column - steps, row - steps);
+        CorrelateRow(wanted, now_from_then, start, count, &At(column, row));
+      }
     }
   }
 
@@ -182,7 +253,7 @@ class GridCorrelation {
     int end = 0;
   };
   static constexpr int kMostSide = 2 * kMostSteps + 1;
-  using Row = Eigen::Array<float, kMostSide, 1>;
+  using Lanes = Eigen::Array<float, GrayWindow::kLanes, 1>;
 
   // Returns the places at which the template reaches over no border of the picture.
   static Range FindRange(double middle, double reach, int size, int steps) {
@@ -195,16 +266,13 @@ class GridCorrelation {
     return range;
   }
 
-  // Computes the correlations at `count` pixels in a row.
-  static void CorrelateRow(const ThinSamples& wanted,
-                           ImageView<std::uint8_t> image,
-                           const Eigen::Matrix2d& now_from_then,
-                           const Eigen::Vector2d& start,
-                           int count,
-                           float* correlations) {
-    // Grey values are taken relative to this one, because their squares must not become too large.
-    constexpr float kGray = 128.0f;
-    Row sum = Row::Zero(), squares = Row::Zero(), product = Row::Zero(), value;
+  // Computes the correlations at `count` pixels in a row, from `start` to the right.
+  void CorrelateRow(const ThinSamples& wanted,
+                    const Eigen::Matrix2d& now_from_then,
+                    const Eigen::Vector2d& start,
+                    int count,
+                    float* correlations) const {
+    Lanes sum = Lanes::Zero(), squares = Lanes::Zero(), product = Lanes::Zero();
     int k = 0;
     for (int y = -kRadius; y <= kRadius; y += 2) {
       for (int x = -kRadius; x <= kRadius; x += 2, ++k) {
@@ -213,32 +281,31 @@ class GridCorrelation {
         const int v = static_cast<int>(at.y());
         const auto a = static_cast<float>(at.x() - u);
         const auto b = static_cast<float>(at.y() - v);
-        const std::uint8_t* row =
-            image.pixels() + static_cast<std::ptrdiff_t>(v) * image.width() + u;
-        const std::uint8_t* next = row + image.width();
-        for (int i = 0; i < count; ++i) {
-          const float above = row[i] + a * static_cast<float>(row[i + 1] - row[i]);
-          const float below = next[i] + a * static_cast<float>(next[i + 1] - next[i]);
-          value[i] = above + b * (below - above) - kGray;
-        }
-        for (int i = 0; i < count; ++i) {
-          sum[i] += value[i];
-          squares[i] += value[i] * value[i];
-          product[i] += value[i] * wanted[k];
-        }
+        const Lanes above = Between(window_.At(u, v), a);
+        const Lanes below = Between(window_.At(u, v + 1), a);
+        const Lanes value = above + b * (below - above);
+        sum += value;
+        squares += value * value;
+        product += value * wanted[k];
       }
     }
     constexpr auto kSize = static_cast<float>(ThinSamples::SizeAtCompileTime);
+    const Lanes variance = (squares - sum * sum / kSize) / kSize;
     for (int i = 0; i < count; ++i) {
-      const float variance = (squares[i] - sum[i] * sum[i] / kSize) / kSize;
-      if (variance < kLeastContrast * kLeastContrast) continue;
+      if (variance[i] < kLeastContrast * kLeastContrast) continue;
       // The sum of what is wanted is 0.
-      correlations[i] = product[i] / std::sqrt(variance * kSize);
+      correlations[i] = product[i] / std::sqrt(variance[i] * kSize);
     }
+  }
+
+  static Lanes Between(const float* row, float share) {
+    const Eigen::Map<const Lanes> left(row), right(row + 1);
+    return left + share * (right - left);
   }
 
   int side_;
   std::array<float, kMostSide * kMostSide> values_;
+  GrayWindow window_;
 };
 
 // Moves `pixel` of the half resolution to the point of a grid that looks most like the template.
