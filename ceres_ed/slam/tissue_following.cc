@@ -1,6 +1,7 @@
 // The changes of the map in a frame after the camera has been found: Level I and II, fusion,
 // growth.
 #include <ceres_ed/slam/frame/association.h>
+#include <ceres_ed/slam/frame/still_tissue.h>
 #include <ceres_ed/slam/levels/edge_weights.h>
 #include <ceres_ed/slam/levels/level_covariance.h>
 #include <ceres_ed/slam/tracker.h>
@@ -30,6 +31,17 @@ constexpr double kLeastFeatureDeviation = 0.2;
 // A frame ends when a round reduces the energy by less than this share.
 constexpr int kLeastRounds = 2;
 constexpr double kSmallGain = 0.1;
+// The tissue keeps still if the residuals of the rigid alignment vary from node to node at most by
+// this factor more than noise, and if neighbouring corners agree about a motion at most so far, or
+// by chance (in deviations). The noise of planes is at least this (map units), which is the error
+// that the smoothing of curved surfaces leaves. Corners are neighbours up to this distance.
+constexpr double kStillSpread = 2.0;
+constexpr double kStillCoherence = 0.1;
+constexpr double kStillChance = 1.0;
+constexpr double kStillDeviation = 0.005;
+constexpr double kStillReach = 2.0;
+// Residuals are limited to this many deviations, so that outliers do not count as motion.
+constexpr double kStillLimit = 5.0;
 
 }  // namespace
 
@@ -62,6 +74,34 @@ double Tracker::FeatureDeviation() const {
     distances.push_back((pose * m.in_map - m.in_camera).norm());
   }
   return RobustDeviation(std::move(distances));
+}
+
+// Decides whether the deformation of the map explains the frame already, so that Level I would only
+// follow the noise, and would exchange motion with the camera. The map is compared as it is, so
+// that slow motion adds up until it is seen.
+bool Tracker::IsTissueStill(const AssociationResult& association,
+                            const ObservedSurface& surface) const {
+  // Only they know where users' energies pull.
+  if (!options_.levels.energies.empty()) return false;
+  const double limit = kStillLimit * association.deviation;
+  std::vector<NodeResidual> residuals;
+  residuals.reserve(association.matches.size());
+  for (const Association& m : association.matches) {
+    const PointBinding binding = map_.binding(visible_[m.visible].slot);
+    const auto nearest = std::max_element(binding.weights, binding.weights + binding.size);
+    residuals.push_back(
+        {binding.nodes[nearest - binding.weights], std::clamp(m.ScaledDistance(), -limit, limit)});
+  }
+  // Points that are nearer to each other than the windows of their patches have errors in common.
+  const double window_side = (2.0 * surface_radius_ + 1.0) / surface.cell();
+  const double points_per_window =
+      window_side * window_side * static_cast<double>(residuals.size()) / surface.num_valid();
+  if (SpreadBetweenNodes(std::move(residuals), points_per_window, kStillDeviation) > kStillSpread) {
+    return false;
+  }
+  const Coherence coherence =
+      CornerCoherence(features_.Matches(map_), map_.state().camera_from_map, kStillReach);
+  return coherence.value <= std::max(kStillCoherence, kStillChance * coherence.deviation);
 }
 
 // Nodes whose recalled positions have changed must move, so they become unsettled.
@@ -124,7 +164,14 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
     observations.features = features_.Observations();
     observations.feature_width =
         std::max(kLossWidth * std::max(FeatureDeviation(), noise), kLeastLossWidth);
+    const bool still = round == 0 && IsTissueStill(association, surface);
     report->times.associate += timer.Restart();
+    if (still) {
+      levels_->HoldLevelOne(observations, map_);
+      memory_.Look(levels_->point_relevant(), map_);
+      report->point_relevant = levels_->point_relevant().size();
+      return observations;
+    }
     memory_.Look(levels_->point_relevant(), map_);
     const LevelReport level = levels_->SolveLevelOne(observations, &memory_, &map_);
     take(level);
@@ -185,7 +232,8 @@ void Tracker::Deform(const ObservedSurface& surface, bool catch_up, FrameReport*
   if (options_.covariance) MeasureCovariances(observations, report);
   FollowHidden(catch_up, report);
   report->fault = levels_->TakeFault();
-  if (batch_ != nullptr && report->number % options_.verify_every == 0) {
+  const bool moved = report->active > 0;
+  if (batch_ != nullptr && moved && report->number % options_.verify_every == 0) {
     Verify(observations, report);
   }
   memory_.Keep(levels_->point_relevant(), map_);

@@ -74,6 +74,7 @@ class Tracker final : public DeformableSlam {
                FrameReport* report);
   // Brings the nodes near the view up to date.
   void CatchUpInView(const CameraPose& camera_from_map, FrameReport* report);
+  bool IsTissueStill(const AssociationResult& association, const ObservedSurface& surface) const;
   FrameObservations FollowSeen(const ObservedSurface& surface, FrameReport* report);
   // Computes the covariances of a frame from its last Level I.
   void MeasureCovariances(const FrameObservations& observations, FrameReport* report);

@@ -379,7 +379,18 @@ TEST_F(EdSlamOutputTest, OneFrameIsEnough) {
 }
 
 TEST_F(EdSlamOutputTest, TakesTheFramesThatAreAskedFor) {
-  ASSERT_EQ(Run("out", {"--first=1", "--last=4", "--step=2", "--features=none", "--mode=batch"})
+  // The tissue moves, since the camera does not.
+  BumpyScene heaving;
+  heaving.camera_step = 0.0;
+  heaving.heave = 0.001;
+  WriteBumpySequence(Sequence(), kNumFrames, heaving);
+  ASSERT_EQ(Run("out",
+                {"--first=1",
+                 "--last=4",
+                 "--step=2",
+                 "--features=none",
+                 "--mode=batch",
+                 "--camera=fixed"})
                 .exit_code,
             0);
   auto rows = Frames();

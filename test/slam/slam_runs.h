@@ -1,4 +1,4 @@
-// Short simulated sequences without noise, and the results of tracking and mapping.
+// Short simulated sequences, most without noise, and the results of tracking and mapping.
 #ifndef CERES_ED_TEST_SLAM_SLAM_RUNS_H_
 #define CERES_ED_TEST_SLAM_SLAM_RUNS_H_
 
@@ -20,13 +20,18 @@ namespace ceres_ed {
 
 // Frames of 160 x 120 pixels with full truth.
 struct ShortSequence {
-  explicit ShortSequence(SyntheticSceneKind kind, int num_frames = 8) {
+  // The tissue is back at rest after `period` frames; the noise of the depth is in metres.
+  explicit ShortSequence(SyntheticSceneKind kind,
+                         int num_frames = 8,
+                         double period = SyntheticSequenceOptions().period,
+                         double noise = 0.0) {
     SyntheticSequenceOptions options;
     options.kind = kind;
     options.frames = num_frames;
     options.width = 160;
     options.height = 120;
-    options.noise = 0.0;
+    options.noise = noise;
+    options.period = period;
     const SyntheticSequence sequence(options);
     camera = sequence.camera();
     truth.triangles = sequence.truth_mesh().triangles;

@@ -304,6 +304,38 @@ TEST(DeformableSlam, MovesTheCameraAloneIfTheSceneIsRigid) {
   EXPECT_GT(run.slam->camera_from_map().translation.norm(), 0.0);
 }
 
+// Nodes that followed the noise would take a part of the motion of the camera.
+TEST(DeformableSlam, FindsTheCameraOfARigidTrackerIfTheTissueIsStill) {
+  const double noise = SyntheticSequenceOptions().noise;
+  const ShortSequence still(SyntheticSceneKind::kHeart, 24, /*period=*/1e9, noise);
+  const SlamRun run(still, SlamOptions());
+  SlamOptions options;
+  options.rigid = true;
+  const SlamRun rigid(still, options);
+  int still_frames = 0;
+  for (std::size_t k = 1; k < run.reports.size(); ++k) {
+    EXPECT_GT(run.reports[k].point_relevant, 0) << k;
+    if (run.reports[k].active > 0) continue;
+    // As long as nothing has moved, the cameras are the same to the bit.
+    if (++still_frames < static_cast<int>(k)) continue;
+    EXPECT_EQ(run.cameras[k].translation, rigid.cameras[k].translation) << k;
+  }
+  // Corners agree by chance now and then.
+  EXPECT_GE(still_frames, 12);
+}
+
+// What is too little in one frame to be told from noise adds up.
+TEST(DeformableSlam, FollowsTissueThatDeformsSlowly) {
+  const double noise = SyntheticSequenceOptions().noise;
+  const ShortSequence slow(SyntheticSceneKind::kHeart, 24, /*period=*/100.0, noise);
+  const SlamRun run(slow, SlamOptions());
+  int still = 0;
+  for (const FrameReport& report : run.reports) still += report.active == 0 ? 1 : 0;
+  EXPECT_GT(still, 2);
+  EXPECT_LT(still, 22);
+  EXPECT_LT(Evaluate(slow, run).back().tracking_seen->mean, TissueMotion(slow, 23) / 3.0);
+}
+
 // Nearly half of the picture has no depth in some frames.
 TEST(DeformableSlam, DepthThatDropsOutIsNoEvidenceAgainstTheCamera) {
   const ShortSequence& sequence = KidneySequence();

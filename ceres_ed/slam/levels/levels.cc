@@ -107,6 +107,20 @@ void Levels::MarkPointRelevant(const FrameObservations& observations) {
   point_relevant_.Sort();
 }
 
+const Decoupling& Levels::ChooseNodes(const FrameObservations& observations,
+                                      const DeformableMap& map) {
+  MarkPointRelevant(observations);
+  const Decoupling& nodes = solver_->UpdateNodes(map.graph(), point_relevant_);
+  moved_.Clear();
+  for (const int node : nodes.moved.nodes()) moved_.Add(node);
+  moved_.Sort();
+  return nodes;
+}
+
+void Levels::HoldLevelOne(const FrameObservations& observations, const DeformableMap& map) {
+  ChooseNodes(observations, map);
+}
+
 LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
                                   NodePriorSource* priors,
                                   DeformableMap* map) {
@@ -126,11 +140,7 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
                                   const SolverOptions& options,
                                   NodePriorSource* priors,
                                   DeformableMap* map) {
-  MarkPointRelevant(observations);
-  const Decoupling& nodes = solver_->UpdateNodes(map->graph(), point_relevant_);
-  moved_.Clear();
-  for (const int node : nodes.moved.nodes()) moved_.Add(node);
-  moved_.Sort();
+  const Decoupling& nodes = ChooseNodes(observations, *map);
   LevelWindow window = windows_.Build(map->graph(), map->state(), nodes);
   if (priors != nullptr) priors->UpdatePriors(window.nodes, map);
   const WindowObservations seen(observations, windows_, *map, window);

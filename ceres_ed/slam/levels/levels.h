@@ -63,6 +63,9 @@ class Levels {
                             NodePriorSource* priors,
                             DeformableMap* map);
 
+  // Notes which nodes a Level I of these observations would move, for a frame in which none moves.
+  void HoldLevelOne(const FrameObservations& observations, const DeformableMap& map);
+
   // Solves the same problem again until it has converged.
   LevelReport ConvergeLevelOne(const FrameObservations& observations,
                                NodePriorSource* priors,
@@ -126,6 +129,8 @@ class Levels {
   bool IsLazy() const { return HasLevelTwo() && options_.level_two == LevelTwoMode::kLazy; }
   std::unique_ptr<DecoupledSolver> MakeSolver() const;
   void MarkPointRelevant(const FrameObservations& observations);
+  // Chooses the nodes that a Level I of these observations moves.
+  const Decoupling& ChooseNodes(const FrameObservations& observations, const DeformableMap& map);
   LevelReport SolveLevelOne(const FrameObservations& observations,
                             const SolverOptions& options,
                             NodePriorSource* priors,
