@@ -244,6 +244,9 @@ void Tracker::Exchange(CheckpointArchive* archive) {
   int gap = gap_ ? 1 : 0;
   archive->Value("gap", &gap);
   gap_ = gap != 0;
+  int was_still = was_still_ ? 1 : 0;
+  archive->Value("was_still", &was_still);
+  was_still_ = was_still != 0;
   archive->Value("nodes_before_growth", &nodes_before_growth_);
   map_.Exchange(archive);
   features_.Exchange(map_.graph().num_nodes(), archive);

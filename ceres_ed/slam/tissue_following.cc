@@ -164,9 +164,15 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
     observations.features = features_.Observations();
     observations.feature_width =
         std::max(kLossWidth * std::max(FeatureDeviation(), noise), kLeastLossWidth);
-    const bool still = round == 0 && IsTissueStill(association, surface);
+    // One frame alone may look still by chance, for example at the end of a breath.
+    bool hold = false;
+    if (round == 0) {
+      const bool still = IsTissueStill(association, surface);
+      hold = still && was_still_;
+      was_still_ = still;
+    }
     report->times.associate += timer.Restart();
-    if (still) {
+    if (hold) {
       levels_->HoldLevelOne(observations, map_);
       memory_.Look(levels_->point_relevant(), map_);
       report->point_relevant = levels_->point_relevant().size();

@@ -119,6 +119,8 @@ class Tracker final : public DeformableSlam {
   // The number of nodes at the start of the last growth.
   int nodes_before_growth_ = 0;
   PointCovariances covariances_;
+  // Whether the tissue seemed still in the last frame that was followed.
+  bool was_still_ = true;
   // The last motion of the camera, along the directions that the data determined.
   CameraPose camera_step_;
 };
