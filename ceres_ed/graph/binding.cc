@@ -3,6 +3,7 @@
 #include <ceres_ed/geometry/kd_tree.h>
 #include <ceres_ed/geometry/surface_distance.h>
 #include <ceres_ed/geometry/triangle_area.h>
+#include <ceres_ed/graph/point_binder.h>
 #include <ceres_ed/util/parallel.h>
 
 #include <algorithm>
@@ -23,42 +24,16 @@ constexpr double kMinWeight = 1e-9;
 // of the surface if it has a node for at most this many squared spacings.
 constexpr double kOnSurface = 0.35;
 constexpr double kAreaPerNode = 2.0;
-// Within a body a point follows nodes that are at most this many edges away from the nearest one.
-constexpr int kBodyRings = 3;
 
-// The nodes and weights of one point, before they are added to a Skinning.
-struct BoundNodes {
-  std::array<int, kMaxBoundNodes> nodes;
-  std::array<double, kMaxBoundNodes> weights;
-  int size = 0;
-};
-
-BoundNodes BindToNearestInSpace(const KdTree& node_tree,
-                                const Eigen::Vector3d& point,
-                                int neighbors) {
-  std::array<Neighbor, kMaxBoundNodes + 1> nearest;
-  std::array<double, kMaxBoundNodes + 1> distances;
-  const int count = node_tree.KNearest(point, neighbors + 1, nearest.data());
-  CHECK_GE(count, 1) << "no node near " << point.transpose();
-  for (int i = 0; i < count; ++i) distances[i] = std::sqrt(nearest[i].squared_distance);
-  BoundNodes bound;
-  bound.size = ComputeWeights(distances.data(), count, neighbors, bound.weights.data());
-  for (int i = 0; i < bound.size; ++i) bound.nodes[i] = nearest[i].index;
-  return bound;
-}
-
-// Binds each point to the nodes nearest in space.
-Skinning BindInSpace(const std::vector<Eigen::Vector3d>& points,
-                     const std::vector<Eigen::Vector3d>& node_positions,
-                     const BindingOptions& options) {
-  const KdTree node_tree(node_positions);
+// Binds each point by its distances in space.
+Skinning BindAll(const std::vector<Eigen::Vector3d>& points,
+                 const PointBinder& binder,
+                 int num_threads) {
   std::vector<BoundNodes> bound(points.size());
-  ParallelFor(options.num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) {
-      bound[p] = BindToNearestInSpace(node_tree, points[p], options.neighbors);
-    }
+  ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
+    for (int p = begin; p < end; ++p) bound[p] = binder.Bind(points[p]);
   });
-  Skinning skinning(options.neighbors);
+  Skinning skinning(binder.neighbors());
   for (const BoundNodes& b : bound) skinning.Add(b.nodes.data(), b.weights.data(), b.size);
   return skinning;
 }
@@ -73,13 +48,13 @@ Skinning BindAlongSurface(const std::vector<Eigen::Vector3d>& points,
                           const std::function<bool()>& should_stop) {
   const NearestSeeds nearest =
       NearestSeedsAlongSurface(topology, node_points, neighbors + 1, offsets, should_stop);
-  const KdTree node_tree(node_positions);
+  const PointBinder in_space(node_positions, neighbors);
   Skinning skinning(neighbors);
   std::array<double, kMaxBoundNodes> weights;
   for (int p = 0; p < static_cast<int>(points.size()); ++p) {
     const int count = nearest.Count(p);
     if (count == 0) {
-      const BoundNodes bound = BindToNearestInSpace(node_tree, points[p], neighbors);
+      const BoundNodes bound = in_space.Bind(points[p]);
       skinning.Add(bound.nodes.data(), bound.weights.data(), bound.size);
       continue;
     }
@@ -146,53 +121,6 @@ std::vector<char> FindInnerPieces(const PointCloud& cloud,
   return is_inner;
 }
 
-// Finds the nodes of a body that carry a point in it.
-class BodyBinder {
- public:
-  BodyBinder(const DeformationGraph& graph, int neighbors)
-      : neighbors_(neighbors),
-        positions_(graph.positions().begin(), graph.positions().end()),
-        tree_(positions_),
-        near_(graph.num_nodes()) {
-    std::vector<std::vector<int>> linked(graph.num_nodes());
-    for (const GraphEdge& edge : graph.edges()) linked[edge.from].push_back(edge.to);
-    for (int j = 0; j < graph.num_nodes(); ++j) {
-      near_[j] = {j};
-      for (int ring = 0; ring < kBodyRings; ++ring) {
-        const std::vector<int> inner = near_[j];
-        for (const int k : inner) {
-          near_[j].insert(near_[j].end(), linked[k].begin(), linked[k].end());
-        }
-        std::sort(near_[j].begin(), near_[j].end());
-        near_[j].erase(std::unique(near_[j].begin(), near_[j].end()), near_[j].end());
-      }
-    }
-  }
-
-  BoundNodes Bind(const Eigen::Vector3d& point) const {
-    const std::vector<int>& near = near_[tree_.Nearest(point).index];
-    std::vector<std::pair<double, int>> nodes;
-    nodes.reserve(near.size());
-    for (const int j : near) nodes.emplace_back((positions_[j] - point).norm(), j);
-    const std::size_t used = std::min<std::size_t>(nodes.size(), neighbors_ + 1);
-    std::partial_sort(nodes.begin(), nodes.begin() + static_cast<int>(used), nodes.end());
-    std::array<double, kMaxBoundNodes + 1> distances;
-    for (std::size_t i = 0; i < used; ++i) distances[i] = nodes[i].first;
-    BoundNodes bound;
-    bound.size =
-        ComputeWeights(distances.data(), static_cast<int>(used), neighbors_, bound.weights.data());
-    for (int i = 0; i < bound.size; ++i) bound.nodes[i] = nodes[i].second;
-    return bound;
-  }
-
- private:
-  const int neighbors_;
-  const std::vector<Eigen::Vector3d> positions_;
-  const KdTree tree_;
-  // The nodes within kBodyRings edges of each node, in ascending order.
-  std::vector<std::vector<int>> near_;
-};
-
 }  // namespace
 
 int ComputeWeights(const double* distances, int count, int neighbors, double* weights) {
@@ -233,7 +161,9 @@ Skinning BindPoints(const PointCloud& cloud,
   node_positions.reserve(node_points.size());
   for (const int point : node_points) node_positions.push_back(cloud.points[point]);
   if (options.distance == DistanceRule::kEuclidean || !topology.HasSurface()) {
-    return BindInSpace(cloud.points, node_positions, options);
+    return BindAll(cloud.points,
+                   PointBinder(std::move(node_positions), options.neighbors),
+                   options.num_threads);
   }
   return BindAlongSurface(
       cloud.points, topology, node_positions, node_points, {}, options.neighbors, should_stop);
@@ -256,14 +186,7 @@ double SurfaceNodeSpacing(const DeformationGraph& graph) {
 Skinning BindInBody(const std::vector<Eigen::Vector3d>& points,
                     const DeformationGraph& graph,
                     int num_threads) {
-  const BodyBinder binder(graph, kMaxBoundNodes);
-  std::vector<BoundNodes> bound(points.size());
-  ParallelFor(num_threads, static_cast<int>(points.size()), [&](int begin, int end) {
-    for (int p = begin; p < end; ++p) bound[p] = binder.Bind(points[p]);
-  });
-  Skinning skinning(kMaxBoundNodes);
-  for (const BoundNodes& b : bound) skinning.Add(b.nodes.data(), b.weights.data(), b.size);
-  return skinning;
+  return BindAll(points, PointBinder::InBody(graph), num_threads);
 }
 
 void BindPiecesInBody(const PointCloud& cloud,
@@ -304,12 +227,11 @@ StatusOr<Skinning> BindCloudToGraph(const PointCloud& cloud,
   std::string error;
   if (!options.IsValid(&error)) return Status::Error("bad binding: " + error);
   if (graph.num_nodes() == 0) return Status::Error("cannot bind points to a graph without nodes");
-  const bool has_body = graph.num_inner_nodes() > 0;
   const std::vector<Eigen::Vector3d> node_positions(
       graph.positions().begin(), graph.positions().begin() + graph.num_surface_nodes());
   if (options.distance == DistanceRule::kEuclidean || !topology.HasSurface()) {
-    return has_body ? BindInBody(cloud.points, graph, options.num_threads)
-                    : BindInSpace(cloud.points, node_positions, options);
+    return BindAll(
+        cloud.points, PointBinder::InSpace(graph, options.neighbors), options.num_threads);
   }
   const std::vector<char> is_inner = FindInnerPieces(cloud, topology, graph);
   if (std::all_of(is_inner.begin(), is_inner.end(), [](char inner) { return inner != 0; })) {
