@@ -7,6 +7,7 @@
 #   python    the Python package
 #   pcl       the module for PCL and .pcd files
 #   video     the module for recordings that are videos
+#   hdf5      the module for .h5 files
 #   packages  what scripts/package.sh makes Debian packages with
 #   docs      what scripts/docs.sh makes the API pages with
 #   test      what scripts/test.sh needs: all of the above
@@ -28,7 +29,7 @@ add_list() {
     fit)
       # libceres-dev depends on SuiteSparse, Eigen, glog and gflags; the runtime of OpenBLAS can be linked.
       add g++ cmake ninja-build libceres-dev libeigen3-dev libsuitesparse-dev libgoogle-glog-dev libgflags-dev \
-        libopenblas0-pthread libnanoflann-dev libspectra-dev nlohmann-json3-dev
+        libopenblas0-pthread libnanoflann-dev libspectra-dev nlohmann-json3-dev zlib1g-dev
       ;;
     tracking)
       add_list fit
@@ -39,17 +40,20 @@ add_list() {
     python) add_list tracking && add python3-dev pybind11-dev python3-numpy ;;
     pcl) add_list fit && add libpcl-dev ;;
     video) add_list tracking && add libopencv-videoio-dev ;;
+    hdf5) add_list fit && add libhdf5-dev ;;
     packages) add_list python && add dpkg-dev file lintian ;;
     docs) add doxygen python3 ;;
     test)
-      for list in packages pcl video docs; do add_list "$list"; done
+      for list in packages pcl video hdf5 docs; do add_list "$list"; done
+      # ITK judges displacement fields.
+      add libinsighttoolkit5-dev
       add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy
       ;;
     lint) add clang-format clang-tidy ;;
     fuzz) add clang libclang-rt-14-dev ;;
     all) add_list test && add_list lint ;;
     *)
-      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, video, packages, docs, test, lint, fuzz or all" >&2
+      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, video, hdf5, packages, docs, test, lint, fuzz or all" >&2
       exit 1
       ;;
   esac

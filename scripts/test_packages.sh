@@ -68,8 +68,17 @@ cat "$root/root/error"
 install_packages 'ceres-ed-pcl_*.deb'
 in_root ed_apply /root/warp.json /root/points.pcd --output=/root/moved.pcd
 
+say "fields in .h5 files"
+if in_root ed_apply /root/warp.json --field=/root/field.h5 2>"$root/root/error"; then
+  echo "test_packages.sh: an .h5 file was written without ceres-ed-hdf5" >&2
+  exit 1
+fi
+cat "$root/root/error"
+install_packages 'ceres-ed-hdf5_*.deb'
+in_root ed_apply /root/warp.json --field=/root/field.h5
+
 say "and gone again"
-apt_get remove --purge 'libceres-ed*' ceres-ed-tools ceres-ed-pcl python3-ceres-ed >/dev/null
+apt_get remove --purge 'libceres-ed*' ceres-ed-tools ceres-ed-pcl ceres-ed-hdf5 python3-ceres-ed >/dev/null
 left=$(in_root find /usr -name '*ceres_ed*' -o -name '*ceres-ed*' -o -name 'ed_fit')
 if [[ -n $left ]]; then
   echo "test_packages.sh: left behind: $left" >&2

@@ -6,6 +6,7 @@
 #   python   the Python package (ceres_ed/python)
 #   pcl      the module for PCL, with its header (ceres_ed/pcl)
 #   video    the module for videos (ceres_ed/video)
+#   hdf5     the module for .h5 files (ceres_ed/hdf5)
 #   doc      the pages with their pictures, the examples, and the licence
 include(CMakePackageConfigHelpers)
 

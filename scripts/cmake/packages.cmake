@@ -108,6 +108,13 @@ videos.")
   set(CPACK_DEBIAN_VIDEO_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
 
+if(CERES_ED_BUILD_HDF5)
+  ceres_ed_add_package(
+    hdf5 ceres-ed-hdf5 libs "${ceres_ed_same_version}" "embedded deformation graphs: transforms in HDF5"
+    "${ceres_ed_text}\n
+With this package ed_apply writes displacement fields as .h5 files of ITK.")
+endif()
+
 if(NOT BUILD_SHARED_LIBS)
   # Says so when cpack is called; a static build is fine for anything else.
   set(CPACK_PROJECT_CONFIG_FILE ${PROJECT_SOURCE_DIR}/scripts/cmake/packages_refused.cmake)

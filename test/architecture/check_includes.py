@@ -11,7 +11,7 @@ import sys
 from pathlib import Path
 
 INCLUDE = re.compile(r'^#include [<"]((?:ceres_ed|cost_functions|apps)/[^>"]+)[>"]', re.MULTILINE)
-ROW = re.compile(r"^\| `([a-z_]+)` \|[^|]*\| ([^|]*) \|$", re.MULTILINE)
+ROW = re.compile(r"^\| `([a-z0-9_]+)` \|[^|]*\| ([^|]*) \|$", re.MULTILINE)
 # Whoever runs the stages of a layer; no stage knows it.
 ENTRY_POINTS = {"ceres_ed/registration/fit.h": {"fit.cc"},
                 "ceres_ed/slam/slam.h": {"slam.cc", "tracker.h", "tracked_points.h"}}
@@ -27,7 +27,7 @@ def layer_of(path):
 
 def read_layers(page):
     """Returns the layers that each layer may include: those of its row, and all below them."""
-    direct = {name: set(re.findall(r"`([a-z_]+)`", cell)) for name, cell in ROW.findall(page)}
+    direct = {name: set(re.findall(r"`([a-z0-9_]+)`", cell)) for name, cell in ROW.findall(page)}
     allowed = {}
 
     def below(name, above):

@@ -76,6 +76,11 @@ if(video)
                 "/usr/lib/${triplet}/libceres_ed_video.so.${soversion}")
 endif()
 
+if(hdf5)
+  check_package(ceres-ed-hdf5 "${library} \\(= ${version}\\).*libhdf5"
+                "/usr/lib/${triplet}/libceres_ed_hdf5.so.${soversion}")
+endif()
+
 # Faults that Debian's own checker calls errors.
 find_program(LINTIAN lintian)
 if(LINTIAN)

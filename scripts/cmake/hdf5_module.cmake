@@ -1,0 +1,15 @@
+# Whether the module for HDF5 (ceres_ed/hdf5) can be built: the serial library and its header, as Debian and others
+# name them.
+find_library(CERES_ED_hdf5_LIBRARY NAMES hdf5_serial hdf5)
+find_path(CERES_ED_HDF5_INCLUDE_DIR hdf5.h PATH_SUFFIXES hdf5/serial)
+mark_as_advanced(CERES_ED_hdf5_LIBRARY CERES_ED_HDF5_INCLUDE_DIR)
+set(ceres_ed_hdf5_default OFF)
+if(CERES_ED_TOP_LEVEL AND CERES_ED_hdf5_LIBRARY AND CERES_ED_HDF5_INCLUDE_DIR)
+  set(ceres_ed_hdf5_default ON)
+endif()
+option(CERES_ED_BUILD_HDF5 "Build the module for .h5 files (needs HDF5)" ${ceres_ed_hdf5_default})
+if(CERES_ED_BUILD_HDF5 AND NOT (CERES_ED_hdf5_LIBRARY AND CERES_ED_HDF5_INCLUDE_DIR))
+  message(FATAL_ERROR "CERES_ED_BUILD_HDF5 is ON, and there is no HDF5 (Debian's libhdf5-dev)")
+elseif(CERES_ED_TOP_LEVEL AND NOT CERES_ED_BUILD_HDF5)
+  message(STATUS "ceres_ed: no module for .h5 files: there is no libhdf5-dev")
+endif()
