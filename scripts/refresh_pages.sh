@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 build=${1:-build/release}
-cmake --build "$build" --target ed_list_energies ed_fit ed_slam ed_depth
+cmake --build "$build" --target ed_list_energies ed_apply ed_fit ed_slam ed_depth
 text=$(mktemp)
 trap 'rm -f "$text"' EXIT
 
@@ -23,6 +23,7 @@ refresh() {
 
 refresh ceres_ed/energy/README.md ed_list_energies "$build/apps/ed_list_energies" --format=markdown
 refresh ceres_ed/registration/README.md 'ed_fit options' "$build/apps/ed_fit" --help=markdown
+refresh ceres_ed/io/field/README.md 'ed_apply options' "$build/apps/ed_apply" --help=markdown
 refresh ceres_ed/stereo/README.md 'ed_depth options' "$build/apps/ed_depth" --help=markdown
 refresh ceres_ed/slam/README.md 'ed_slam options' "$build/apps/ed_slam" --help=markdown
 python3 test/docs/check_code.py --update

@@ -96,6 +96,7 @@ TEST(EnergyPage, HasTheCatalogueOfTheRegistry) {
 
 TEST(OptionsPages, HaveTheFlagsOfThePrograms) {
   for (const auto& [page, program] : {std::pair("ceres_ed/registration/README.md", "ed_fit"),
+                                      std::pair("ceres_ed/io/field/README.md", "ed_apply"),
                                       std::pair("ceres_ed/slam/README.md", "ed_slam")}) {
     const ProgramResult table = RunProgramFile(AppPath(program), {"--help=markdown"});
     ASSERT_EQ(table.exit_code, 0);
