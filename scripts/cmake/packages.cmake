@@ -113,6 +113,7 @@ if(CERES_ED_BUILD_HDF5)
     hdf5 ceres-ed-hdf5 libs "${ceres_ed_same_version}" "embedded deformation graphs: transforms in HDF5"
     "${ceres_ed_text}\n
 With this package ed_apply writes displacement fields as .h5 files of ITK.")
+  set(CPACK_DEBIAN_HDF5_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
 
 if(NOT BUILD_SHARED_LIBS)

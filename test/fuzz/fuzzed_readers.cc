@@ -7,6 +7,7 @@
 #include <ceres_ed/io/camera_io.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/csv_table.h>
+#include <ceres_ed/io/field/grid_reader.h>
 #include <ceres_ed/io/image_io.h>
 #include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/mesh/ply_reader.h>
@@ -137,6 +138,14 @@ std::string FramesFault(const std::string& path, const std::string&) {
   return FaultOf(ReadFrameLog(path), path);
 }
 
+// The headers of images: each reader sees each file.
+std::string ImageGridFault(const std::string& path, const std::string&) {
+  for (const auto read : {ReadNrrdGrid, ReadMetaImageGrid, ReadNiftiGrid}) {
+    if (std::string fault = FaultOf(read(path), path); !fault.empty()) return fault;
+  }
+  return "";
+}
+
 std::string IniCalibrationFault(const std::string& path, const std::string&) {
   return FaultOf(ReadIniCalibration(path), path);
 }
@@ -234,6 +243,7 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"energies", ".txt", EnergiesFault},
       {"fixed", ".txt", FixedFault},
       {"frames", ".csv", FramesFault},
+      {"image_grid", ".image", ImageGridFault},
       {"ini_calibration", ".ini", IniCalibrationFault},
       {"intrinsics", ".txt", IntrinsicsFault},
       {"json_calibration", ".json", JsonCalibrationFault},
