@@ -36,12 +36,12 @@ struct ApplySettings {
 const OptionTable<ApplySettings>& ApplyRows() {
   using S = ApplySettings;
   static const OptionTable<S> rows({
-      Row(&S::output, "output", "PLY to write: the deformed IN.ply with all its other data.")
+      Row(&S::output, "output", "Mesh to write, in the format of its ending: the deformed IN with all its data.")
           .Letter('o')
           .File(),
       Row(&S::displacement,
           "displacement",
-          "Mesh to write: IN.ply at rest, with the displacement of each vertex.")
+          "Mesh to write: IN at rest, with the displacement of each vertex.")
           .File(),
       Nested(&S::field, FieldSettings::Rows()),
   });
@@ -66,7 +66,7 @@ std::string WrongNames(const ApplySettings& settings, bool has_cloud) {
   const bool wants_cloud = !settings.output.empty() || !settings.displacement.empty();
   if (!wants_cloud && !field.HasOutput()) return "flag --output is required";
   if (wants_cloud && !has_cloud) {
-    return "--output or --displacement without IN.ply, expected the cloud to deform";
+    return "--output or --displacement without IN, expected the cloud to deform";
   }
   const std::string outputs[] = {settings.output, settings.displacement, field.field, field.rigid};
   for (const std::string& output : outputs) {
@@ -100,16 +100,23 @@ Outcome WriteDeformed(const ApplySettings& settings,
     return Outcome::BadInput(Status::Error(warp_path + ": " + status.message()));
   }
   const std::string& output = settings.output;
+  std::vector<std::string> losses;
   Status saved = Status::Ok();
   if (!output.empty()) {
+    losses = LossesOf(output, loaded.document);
     saved = SaveCloud(output, loaded, cloud.points, cloud.HasNormals() ? &cloud.normals : nullptr);
   }
   if (saved.ok() && !settings.displacement.empty()) {
-    saved = WriteMesh(settings.displacement, WithDisplacement(loaded, cloud.points));
+    const PlyDocument document = WithDisplacement(loaded, cloud.points);
+    for (std::string& loss : LossesOf(settings.displacement, document)) {
+      losses.push_back(std::move(loss));
+    }
+    saved = WriteMesh(settings.displacement, document);
   }
   if (!saved.ok()) return Outcome::BadInput(saved);
 
   Console console("ed_apply", /*quiet=*/false);
+  for (const std::string& loss : losses) console.Warn(loss);
   const std::string deformed = std::to_string(cloud.size()) + " points deformed by " +
                                std::to_string(warp.graph.num_nodes()) + " nodes\n";
   if (!output.empty()) console.Summarize(output + ": " + deformed);
@@ -127,6 +134,9 @@ Outcome Run(const std::vector<std::string>& arguments) {
   if (!wrong.empty()) return Outcome::Usage(wrong);
   for (const std::string& output : {settings->output, settings->displacement}) {
     if (output.empty()) continue;
+    if (Status status = CheckMeshEnding(output); !status.ok()) {
+      return Outcome::Usage(status.message());
+    }
     if (Status status = PrepareOutput(output); !status.ok()) return Outcome::BadInput(status);
   }
   const StatusOr<Warp> warp = ReadWarp(arguments[0]);
@@ -157,11 +167,11 @@ Outcome Run(const std::vector<std::string>& arguments) {
 
 const ProgramInfo kProgram = {
     "ed_apply",
-    "WARP.json [IN.ply] [--output=OUT.ply] [--field=FIELD.nrrd]",
+    "WARP.json [IN] [--output=OUT] [--field=FIELD.nrrd]",
     "Deforms a cloud or mesh with the warp that `ed_fit --warp=WARP.json` has written, for "
-    "example the full resolution of a model that was fitted coarsely, or annotations on it. IN.ply "
+    "example the full resolution of a model that was fitted coarsely, or annotations on it. IN "
     "is in the frame and unit of ed_fit's SOURCE; its faces, colours and other properties are "
-    "kept. --field and --rigid write the warp for other tools; IN.ply is then what the grid "
+    "kept. --field and --rigid write the warp for other tools; IN is then what the grid "
     "surrounds.",
     "ed_apply warp.json full_resolution.ply --output=deformed.ply",
     1,

@@ -61,7 +61,7 @@ Outcome Run(const std::vector<std::string>& arguments) {
 
 const ProgramInfo kProgram = {
     "ed_check",
-    "SOURCE.ply [TARGET.ply]",
+    "SOURCE [TARGET]",
     "Looks at the inputs of a fit (units, winding, normals, faces, stray vertices, overlap and "
     "more), and names each fault with its fix. A note is about something that ed_fit copes with; a "
     "warning may spoil the result. Nothing is written.",

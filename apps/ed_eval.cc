@@ -38,7 +38,7 @@ Outcome Run(const std::vector<std::string>& arguments) {
 
 const ProgramInfo kProgram = {
     "ed_eval",
-    "RESULT.ply TARGET.ply [flags] | --sequence=SEQ --result=DIR [--report=R.json]",
+    "RESULT TARGET [flags] | --sequence=SEQ --result=DIR [--report=R.json]",
     "Measures how far a fitted surface is from its target, or how well the map that ed_slam made "
     "of a sequence follows the tissue. The map is compared with the truth, the depth images and "
     "tracks_2d.csv, as far as the sequence has them. Sequences are in metres.",

@@ -36,9 +36,10 @@ Outcome Run(const std::vector<std::string>& arguments) {
 
 const ProgramInfo kProgram = {
     "ed_fit",
-    "SOURCE.ply [TARGET.ply] --output=OUT.ply",
+    "SOURCE [TARGET] --output=OUT",
     "Deforms SOURCE so that it lies on TARGET or, without TARGET, so that its --landmarks reach "
-    "their positions. The files are meshes or bare points, in the same unit.",
+    "their positions. The files are meshes or bare points (PLY, STL, OBJ, OFF, VTK, VTP, GLB, "
+    "PCD), in the same unit.",
     "ed_fit source.ply target.ply --output=fitted.ply --warp=warp.json --report=report.json",
     1,
     2};

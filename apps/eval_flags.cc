@@ -1,5 +1,6 @@
 #include "apps/eval_flags.h"
 
+#include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/util/options.h>
 
 #include <utility>
@@ -14,15 +15,15 @@ const OptionTable<EvalSettings>& EvalRows() {
   static const OptionTable<S> rows({
       Row(&S::source,
           "source",
-          "PLY that was fitted; with it, stretched edges and flipped faces are measured.")
+          "Mesh that was fitted; with it, stretched edges and flipped faces are measured.")
           .File(),
       Row(&S::truth,
           "truth",
-          "PLY with the true positions of the points of RESULT.ply, in their order.")
+          "Mesh with the true positions of the points of RESULT, in their order.")
           .File(),
       Row(&S::calibration,
           "calibration",
-          "PLY that ed_fit --covariance has written for RESULT.ply; with --truth, its covariances "
+          "Mesh that ed_fit --covariance has written for RESULT; with --truth, its covariances "
           "are compared with the errors.")
           .File(),
       Row(&S::sequence, "sequence", "Folder of a depth sequence, for which --result is measured.")
@@ -31,7 +32,7 @@ const OptionTable<EvalSettings>& EvalRows() {
       Row(&S::report, "report", "JSON to write: all figures.").File(),
       Row(&S::error_ply,
           "error_ply",
-          "PLY to write: RESULT.ply with the error of each point, to the truth or the target.")
+          "Mesh to write: RESULT with the error of each point, to the truth or the target.")
           .File(),
       NotData(&S::fitted),
       NotData(&S::target),
@@ -42,7 +43,7 @@ const OptionTable<EvalSettings>& EvalRows() {
 
 const OptionFlags<EvalSettings> kFlags(EvalRows());
 
-constexpr char kUses[] = "expected RESULT.ply TARGET.ply, or --sequence=SEQ --result=DIR";
+constexpr char kUses[] = "expected RESULT TARGET, or --sequence=SEQ --result=DIR";
 
 }  // namespace
 
@@ -57,6 +58,7 @@ StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments) 
     if (!settings.calibration.empty() && settings.truth.empty()) {
       return Status::Error("--calibration without --truth, expected both");
     }
+    if (Status status = CheckMeshEnding(settings.error_ply); !status.ok()) return status;
     settings.fitted = arguments[0];
     settings.target = arguments[1];
     return settings;

@@ -1,5 +1,6 @@
 #include "apps/fit_flags.h"
 
+#include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/pipeline/fit/scale_setting.h>
 #include <ceres_ed/util/options.h>
 
@@ -23,16 +24,18 @@ const OptionTable<FitSettings>& FitSettingsRows() {
   static const OptionTable<S> rows({
       Row(&S::output,
           "output",
-          "PLY to write: the fitted SOURCE with all its other data; required.")
+          "Mesh to write, in the format of its ending: the fitted SOURCE with all its data; "
+          "required.")
           .Letter('o')
           .File(),
       Row(&S::warp, "warp", "JSON to write: the deformation, for ed_apply.").File(),
-      Row(&S::graph, "graph", "PLY to write: the fitted nodes and edges.").File(),
+      Row(&S::graph, "graph", "Mesh to write: the fitted nodes and edges.").File(),
       Row(&S::report, "report", "JSON to write: the settings, errors and times of the fit.").File(),
       Row(&S::covariance,
           "covariance",
-          "PLY to write: the covariance xx xy xz yy yz zz of each point. Without a file name: only "
-          "std_dev in OUT.ply.")
+          "Mesh to write: the covariance xx xy xz yy yz zz of each point. Without a file name: "
+          "only "
+          "std_dev in OUT.")
           .File()
           .Alone("true"),
       Row(&S::landmarks,
@@ -66,10 +69,13 @@ const OptionTable<FitFlags>& FitFlagsRows() {
 
 const OptionFlags<FitFlags> kFlags(FitFlagsRows());
 
-// Checks that there is an output, and that no two outputs have the same name, since one would
-// overwrite the other.
+// Checks that there is an output, that meshes have the ending of a format, and that no two outputs
+// have the same name, since one would overwrite the other.
 Status CheckOutputNames(const FitSettings& settings) {
   if (settings.output.empty()) return Status::Error("flag --output is required");
+  for (const std::string& mesh : {settings.output, settings.graph, settings.covariance}) {
+    if (Status status = CheckMeshEnding(mesh); !status.ok()) return status;
+  }
   const std::string outputs[] = {
       settings.output, settings.warp, settings.graph, settings.report, settings.covariance};
   for (const std::string& one : outputs) {

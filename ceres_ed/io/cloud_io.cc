@@ -2,6 +2,7 @@
 
 #include <ceres_ed/geometry/polygon_triangles.h>
 #include <ceres_ed/io/mesh/mesh_format.h>
+#include <ceres_ed/io/mesh/mesh_view.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 
 #include <algorithm>
@@ -14,42 +15,16 @@
 namespace ceres_ed {
 namespace {
 
-// Returns "1 point" or "5 points".
-std::string Counted(std::size_t count, const std::string& noun) {
-  return std::to_string(count) + ' ' + noun + (count == 1 ? "" : "s");
-}
-
 bool IsUsableCoordinate(const Eigen::Vector3d& point) {
   // The comparison is false for NaN.
   return point.cwiseAbs().maxCoeff() <= kMaxCoordinate && point.allFinite();
-}
-
-// Returns the value of the brightest colour in a property of `type`.
-double LargestColor(PlyType type) {
-  switch (type) {
-    case PlyType::kInt8:
-      return 127.0;
-    case PlyType::kUint8:
-      return 255.0;
-    case PlyType::kInt16:
-      return 32767.0;
-    case PlyType::kUint16:
-      return 65535.0;
-    case PlyType::kInt32:
-      return 2147483647.0;
-    case PlyType::kUint32:
-      return 4294967295.0;
-    case PlyType::kFloat32:
-    case PlyType::kFloat64:
-      break;
-  }
-  return 1.0;
 }
 
 class CloudBuilder {
  public:
   CloudBuilder(const std::string& path, PlyDocument document) : path_(path) {
     loaded_.document = std::move(document);
+    for (const std::string& warning : loaded_.document.warnings) Warn(warning);
   }
 
   StatusOr<LoadedCloud> Build() {

@@ -29,8 +29,8 @@ struct LoadedCloud {
   std::vector<std::string> warnings;
 };
 
-// Reads the cloud of the file `path`. It is a PLY, unless the ending of its name is that of another
-// format (see io/mesh/mesh_format.h). The cloud is made of:
+// Reads the cloud of the file `path`, which may be of any format of io/mesh/mesh_format.h. The
+// cloud is made of:
 //   - Points are x y z of element 'vertex', of any type.
 //   - Normals are nx ny nz or normal_x normal_y normal_z, scaled to unit length. A normal that is
 //     zero or not finite becomes zero.
@@ -40,9 +40,10 @@ struct LoadedCloud {
 //   - Triangles are from the list vertex_indices or vertex_index of element 'face'. Polygons are
 //     divided into fans of triangles.
 //
-// Left out with a warning: points that are not finite and their triangles, polygons of fewer than
-// three corners, and triangles that use a vertex twice. Errors are those of ReadPly(), and: there
-// are no vertices, there is no x y z, a face index is out of range, or no point is finite.
+// The warnings begin with those of the reader. Left out with a warning: points that are not finite
+// and their triangles, polygons of fewer than three corners, and triangles that use a vertex twice.
+// Errors are those of ReadPly(), and: there are no vertices, there is no x y z, a face index is out
+// of range, or no point is finite.
 StatusOr<LoadedCloud> LoadCloud(const std::string& path);
 
 // Does the same for a document in memory. `path` names it in messages.
@@ -84,6 +85,9 @@ struct CloudWriteOptions {
   std::vector<std::array<std::uint8_t, 3>> colors;
   // More properties of the vertices, for example `error`: scalars, with one value for each point.
   std::vector<PlyProperty> columns;
+  // Unless null, gets a sentence for each kind of thing that the format of the file can't represent
+  // (io/mesh/mesh_format.h).
+  std::vector<std::string>* losses = nullptr;
 };
 
 // Writes `cloud` to `path` (its points, and its normals and triangles if there are any) with the

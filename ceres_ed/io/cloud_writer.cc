@@ -109,6 +109,7 @@ Status WriteCloud(const std::string& path,
   document.comments = options.comments;
   document.elements.push_back(MakeVertexElement(cloud, options));
   if (cloud.HasTriangles()) document.elements.push_back(MakeFaceElement(cloud));
+  if (options.losses != nullptr) *options.losses = LossesOf(path, document);
   return WriteMesh(path, document);
 }
 

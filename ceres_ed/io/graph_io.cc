@@ -1,6 +1,6 @@
 #include "ceres_ed/io/graph_io.h"
 
-#include <ceres_ed/io/mesh/ply_writer.h>
+#include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/io/mesh/position_type.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 
@@ -85,7 +85,7 @@ Status WriteGraph(const std::string& path,
   document.format = options.format;
   document.comments = {"embedded deformation graph"};
   document.elements = {MakeNodeElement(graph, state, options), MakeEdgeElement(graph)};
-  return WritePly(path, document);
+  return WriteMesh(path, document);
 }
 
 }  // namespace ceres_ed

@@ -297,7 +297,7 @@ TEST_F(EdEvalSequence, KeepsItsTwoUsesApart) {
   const std::string sequence = "--sequence=" + Path("seq");
   const std::string result = "--result=" + Path("out");
   const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
-      {{}, "0 arguments given, expected RESULT.ply TARGET.ply, or --sequence=SEQ --result=DIR"},
+      {{}, "0 arguments given, expected RESULT TARGET, or --sequence=SEQ --result=DIR"},
       {{"a.ply"}, "1 arguments given, expected"},
       {{"a.ply", "b.ply", "c.ply"}, "3 arguments given, expected"},
       {{sequence}, "--sequence without --result"},

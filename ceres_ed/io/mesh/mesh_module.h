@@ -17,16 +17,36 @@ struct MeshModule {
   const char* version;
   // Fills `document` from the file `path`.
   Status (*read)(const std::string& path, PlyDocument* document);
-  // Writes to `bytes` the contents of a file with `document`. `path` names the file in messages.
+  // Writes to `bytes` the contents of a file with `document`. `path` names the file in messages,
+  // and its ending is that of the format.
   Status (*encode)(const std::string& path, const PlyDocument& document, std::string* bytes);
 };
 
 using MeshModuleFunction = const MeshModule*();
 inline constexpr char kMeshModuleSymbol[] = "ceres_ed_mesh_module";
 
+// A module, and what to say where it is missing.
+struct MeshModuleFile {
+  // The name of the shared object, without folders.
+  const char* file;
+  // For example "PCD" and "PCL".
+  const char* format;
+  const char* library;
+  // The Debian package that has the module, and the one from which it is built.
+  const char* package;
+  const char* build_package;
+};
+
 // Returns the module in the shared object `file`, which OpenModule() finds (module_file.h). The
 // error gives the message of the system or of the module.
 StatusOr<const MeshModule*> LoadMeshModule(const std::string& file);
+
+// Reads and writes a file by a module. Errors name the file: it can't be read or written, or the
+// module is missing (and how to get it).
+StatusOr<PlyDocument> ReadByModule(const MeshModuleFile& module, const std::string& path);
+Status WriteByModule(const MeshModuleFile& module,
+                     const std::string& path,
+                     const PlyDocument& document);
 
 }  // namespace ceres_ed
 

@@ -54,6 +54,8 @@ struct PlyDocument {
   std::vector<std::string> comments;
   std::vector<std::string> obj_info;
   std::vector<PlyElement> elements;
+  // What the reader left out or had to guess, a sentence for each kind; not written to files.
+  std::vector<std::string> warnings;
 
   // Returns the element of that name, or null.
   const PlyElement* Find(const std::string& element) const {

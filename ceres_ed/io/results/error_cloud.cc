@@ -25,9 +25,11 @@ std::array<std::uint8_t, 3> HeatColor(double t) {
 Status WriteErrorCloud(const std::string& path,
                        const PointCloud& cloud,
                        const std::vector<double>& errors,
-                       double full_scale) {
+                       double full_scale,
+                       std::vector<std::string>* losses) {
   CHECK_EQ(errors.size(), cloud.size());
   CloudWriteOptions options;
+  options.losses = losses;
   options.colors.reserve(errors.size());
   for (const double error : errors) {
     options.colors.push_back(HeatColor(full_scale > 0.0 ? std::min(error / full_scale, 1.0) : 0.0));

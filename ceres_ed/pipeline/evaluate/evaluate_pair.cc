@@ -99,8 +99,11 @@ Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer) {
   if (!settings.error_ply.empty()) {
     const std::vector<double> errors =
         truth != nullptr ? PointDistances(result, *truth) : SurfaceDistances(result.points, target);
-    Status status = WriteErrorCloud(settings.error_ply, result, errors, Summarize(errors).p95);
+    std::vector<std::string> losses;
+    Status status =
+        WriteErrorCloud(settings.error_ply, result, errors, Summarize(errors).p95, &losses);
     if (!status.ok()) return Outcome::BadInput(status);
+    for (const std::string& loss : losses) observer->OnWarning(loss);
   }
   observer->OnPair(*evaluation);
   if (calibration) observer->OnCalibration(*calibration);

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/io/graph_io.h>
+#include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 #include <ceres_ed/io/point_list_io.h>
 #include <ceres_ed/io/warp_io.h>
@@ -185,6 +186,7 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
     Append(target->warnings, &files.warnings);
     target_document = std::move(target->document);
   }
+  Append(LossesOf(settings.output, files.source_document), &files.warnings);
   files.checks = CheckFiles({settings.source, &files.input.source, &files.source_document},
                             {settings.target, &files.input.target, &target_document},
                             should_stop);
