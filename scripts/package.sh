@@ -6,13 +6,14 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 packages=build/packages
-scripts/setup.sh packages pcl video hdf5
+scripts/setup.sh packages pcl vtk gltf video hdf5
 # The date of the changelogs is that of the sources.
 if date=$(git log -1 --format=%ct 2>/dev/null); then export SOURCE_DATE_EPOCH=${SOURCE_DATE_EPOCH:-$date}; fi
 # A folder of its own beside that of the preset: same objects, so a compiler cache serves both.
 scripts/configure.sh release -B build/release-packages -DBUILD_SHARED_LIBS=ON \
   -DCMAKE_INSTALL_PREFIX=/usr -DCERES_ED_BUILD_TESTS=OFF -DCERES_ED_BUILD_APPS=ON \
-  -DCERES_ED_BUILD_PYTHON=ON -DCERES_ED_BUILD_PCL=ON -DCERES_ED_BUILD_HDF5=ON \
+  -DCERES_ED_BUILD_PYTHON=ON -DCERES_ED_BUILD_PCL=ON -DCERES_ED_BUILD_VTK=ON -DCERES_ED_BUILD_GLTF=ON \
+  -DCERES_ED_BUILD_HDF5=ON \
   -DCERES_ED_PYTHON_DIR=lib/python3/dist-packages "$@"
 cmake --build build/release-packages --parallel "$(nproc)"
 rm -rf "$packages"

@@ -6,6 +6,8 @@
 #   demo      what scripts/demo.sh needs: tracking
 #   python    the Python package
 #   pcl       the module for PCL and .pcd files
+#   vtk       the module for .vtk and .vtp files
+#   gltf      the module for .glb files
 #   video     the module for recordings that are videos
 #   hdf5      the module for .h5 files
 #   packages  what scripts/package.sh makes Debian packages with
@@ -39,12 +41,14 @@ add_list() {
     demo) add_list tracking ;;
     python) add_list tracking && add python3-dev pybind11-dev python3-numpy ;;
     pcl) add_list fit && add libpcl-dev ;;
+    vtk) add_list fit && add libvtk9-dev ;;
+    gltf) add_list fit && add libtinygltf-dev ;;
     video) add_list tracking && add libopencv-videoio-dev ;;
     hdf5) add_list fit && add libhdf5-dev ;;
     packages) add_list python && add dpkg-dev file lintian ;;
     docs) add doxygen python3 ;;
     test)
-      for list in packages pcl video hdf5 docs; do add_list "$list"; done
+      for list in packages pcl vtk gltf video hdf5 docs; do add_list "$list"; done
       # ITK judges displacement fields.
       add libinsighttoolkit5-dev
       add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy
@@ -53,7 +57,7 @@ add_list() {
     fuzz) add clang libclang-rt-14-dev ;;
     all) add_list test && add_list lint ;;
     *)
-      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, video, hdf5, packages, docs, test, lint, fuzz or all" >&2
+      echo "setup.sh: no list '$1', expected fit, tracking, demo, python, pcl, vtk, gltf, video, hdf5, packages, docs, test, lint, fuzz or all" >&2
       exit 1
       ;;
   esac

@@ -5,6 +5,8 @@
 #   tools    programs, the demo and its data
 #   python   the Python package (ceres_ed/python)
 #   pcl      the module for PCL, with its header (ceres_ed/pcl)
+#   vtk      the module for .vtk and .vtp files (ceres_ed/vtk)
+#   gltf     the module for .glb files (ceres_ed/gltf)
 #   video    the module for videos (ceres_ed/video)
 #   hdf5     the module for .h5 files (ceres_ed/hdf5)
 #   doc      the pages with their pictures, the examples, and the licence

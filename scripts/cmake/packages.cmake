@@ -99,6 +99,20 @@ convert the clouds and meshes of the Point Cloud Library (which they build
 with libceres-ed-dev and libpcl-dev).")
   set(CPACK_DEBIAN_PCL_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
+if(TARGET ceres_ed_vtk)
+  ceres_ed_add_package(
+    vtk ceres-ed-vtk libs "${ceres_ed_same_version}" "embedded deformation graphs: VTK and VTP files"
+    "${ceres_ed_text}\n
+With this package the programs read and write surfaces in the files of the
+Visualization Toolkit, .vtk and .vtp.")
+endif()
+if(TARGET ceres_ed_gltf)
+  ceres_ed_add_package(
+    gltf ceres-ed-gltf libs "${ceres_ed_same_version}" "embedded deformation graphs: GLB files"
+    "${ceres_ed_text}\n
+With this package the programs read and write meshes in .glb files, the
+binary files of glTF.")
+endif()
 if(TARGET ceres_ed_video)
   ceres_ed_add_package(
     video ceres-ed-video libs "${ceres_ed_same_version}" "embedded deformation graphs: videos"

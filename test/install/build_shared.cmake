@@ -6,6 +6,7 @@ run(out ${CMAKE_COMMAND} -S ${source} -B ${build} -G ${generator} -C ${options}
     -DCMAKE_BUILD_TYPE=${build_type} -DCMAKE_INSTALL_PREFIX=/usr -DBUILD_SHARED_LIBS=ON
     -DCERES_ED_BUILD_TESTS=OFF -DCERES_ED_BUILD_BENCHMARKS=OFF -DCERES_ED_BUILD_APPS=ON
     -DCERES_ED_BUILD_PYTHON=${python} -DCERES_ED_BUILD_PCL=${pcl}
+    -DCERES_ED_BUILD_VTK=${vtk} -DCERES_ED_BUILD_GLTF=${gltf}
     -DCERES_ED_PYTHON_DIR=lib/python3/dist-packages)
 run(out ${CMAKE_COMMAND} --build ${build} --parallel ${jobs})
 include(${CMAKE_CURRENT_LIST_DIR}/install_and_check.cmake)

@@ -71,6 +71,13 @@ if(pcl)
     "/usr/lib/${triplet}/cmake/ceres_ed/ceres_ed-pcl-targets.cmake"
     "/usr/include/ceres_ed-pcl-${version}/ceres_ed/pcl/pcl_conversions.h")
 endif()
+if(vtk)
+  check_package(ceres-ed-vtk "${library} \\(= ${version}\\).*libvtk9"
+                "/usr/lib/${triplet}/libceres_ed_vtk.so.${soversion}")
+endif()
+if(gltf)
+  check_package(ceres-ed-gltf "${library} \\(= ${version}\\)" "/usr/lib/${triplet}/libceres_ed_gltf.so.${soversion}")
+endif()
 if(video)
   check_package(ceres-ed-video "${library} \\(= ${version}\\).*libopencv-videoio"
                 "/usr/lib/${triplet}/libceres_ed_video.so.${soversion}")
