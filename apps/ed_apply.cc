@@ -1,48 +1,50 @@
-// ed_apply applies the deformation that ed_fit found to any other cloud.
-#include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/graph/warp.h>
-#include <ceres_ed/io/cloud_io.h>
+// ed_apply applies the deformation that ed_fit found to any other cloud, to landmarks, or to a
+// grid.
+#include <ceres_ed/io/landmarks/landmark_file.h>
 #include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/io/warp_io.h>
-#include <ceres_ed/pipeline/apply/field_settings.h>
-#include <ceres_ed/pipeline/apply/vertex_displacement.h>
-#include <ceres_ed/pipeline/fit/stray_vertices.h>
+#include <ceres_ed/pipeline/apply/warped_points.h>
 #include <ceres_ed/pipeline/outputs.h>
-#include <ceres_ed/preflight/compare_sizes.h>
-#include <ceres_ed/preflight/repair.h>
 #include <ceres_ed/util/options.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <apps/apply_cloud.h>
 #include <apps/apply_field.h>
-#include <apps/support/console.h>
+#include <apps/apply_landmarks.h>
+#include <apps/apply_settings.h>
 #include <apps/support/option_flags.h>
 #include <apps/support/program.h>
 
 namespace ceres_ed {
 namespace {
 
-struct ApplySettings {
-  std::string output;
-  std::string displacement;
-  FieldSettings field;
-};
-
 const OptionTable<ApplySettings>& ApplyRows() {
   using S = ApplySettings;
   static const OptionTable<S> rows({
-      Row(&S::output, "output", "Mesh to write, in the format of its ending: the deformed IN with all its data.")
+      Row(&S::output, "output", "File to write: the deformed IN with all its other data.")
           .Letter('o')
+          .File(),
+      Row(&S::source,
+          "source",
+          "The SOURCE of ed_fit: landmarks, and points without faces, are carried by its surface. "
+          "Without it they follow the nearest nodes.")
           .File(),
       Row(&S::displacement,
           "displacement",
           "Mesh to write: IN at rest, with the displacement of each vertex.")
           .File(),
+      Row(&S::mesh_space,
+          "mesh_space",
+          "The axes of ed_fit's meshes, into which landmarks in RAS or LPS are turned. auto: what "
+          "the file of --source says, otherwise LPS.")
+          .Main(),
       Nested(&S::field, FieldSettings::Rows()),
   });
   return rows;
@@ -50,129 +52,91 @@ const OptionTable<ApplySettings>& ApplyRows() {
 
 const OptionFlags<ApplySettings> kFlags(ApplyRows());
 
-// Returns the diagonal of the box around the nodes; 0 for a few nodes, which need not span the
-// body.
-double SizeOfGraph(const Warp& warp) {
-  constexpr int kFewNodes = 8;
-  if (warp.graph.num_nodes() < kFewNodes) return 0.0;
-  Eigen::AlignedBox3d box;
-  for (int j = 0; j < warp.graph.num_nodes(); ++j) box.extend(warp.graph.position(j));
-  return box.diagonal().norm();
+// Landmarks are written in the format in which they were read.
+Status CheckLandmarkOutput(const std::string& input, const ApplySettings& settings) {
+  if (!settings.displacement.empty()) {
+    return Status::Error("--displacement with the landmarks " + input + ", expected a mesh");
+  }
+  const std::string& output = settings.output;
+  const std::string ending = std::filesystem::path(input).extension().string();
+  if (output.empty() || std::filesystem::path(output).extension().string() == ending ||
+      output.rfind("/dev/", 0) == 0) {
+    return Status::Ok();
+  }
+  return Status::Error(output + ": expected a name that ends in " + ending + ", as " + input +
+                       " does: landmarks keep their format");
 }
 
-// Returns what is wrong with the names of files; nothing if all is well.
-std::string WrongNames(const ApplySettings& settings, bool has_cloud) {
+// Checks the names of files. `input` is empty if there is none.
+Status CheckNames(const std::string& input, const ApplySettings& settings) {
   const FieldSettings& field = settings.field;
-  const bool wants_cloud = !settings.output.empty() || !settings.displacement.empty();
-  if (!wants_cloud && !field.HasOutput()) return "flag --output is required";
-  if (wants_cloud && !has_cloud) {
-    return "--output or --displacement without IN, expected the cloud to deform";
+  const bool wants_input = !settings.output.empty() || !settings.displacement.empty();
+  if (!wants_input && !field.HasOutput()) return Status::Error("flag --output is required");
+  if (wants_input && input.empty()) {
+    return Status::Error("--output or --displacement without IN, expected what is to be deformed");
   }
   const std::string outputs[] = {settings.output, settings.displacement, field.field, field.rigid};
   for (const std::string& output : outputs) {
     const auto uses = std::count(std::begin(outputs), std::end(outputs), output);
     if (uses < 2 || output.empty() || output.rfind("/dev/", 0) == 0) continue;
-    return "'" + output + "' is the name of two outputs, expected different ones";
+    return Status::Error("'" + output + "' is the name of two outputs, expected different ones");
   }
-  return "";
-}
-
-// Warns of what was left out of the cloud, and of one that is not in the unit of the warp.
-void WarnOf(const LoadedCloud& loaded,
-            const std::string& in,
-            const Warp& warp,
-            const std::string& warp_path) {
-  Console console("ed_apply", /*quiet=*/false);
-  for (const std::string& warning : loaded.warnings) console.Warn(warning);
-  const std::optional<SizeMismatch> mismatch = CompareSizes(
-      {"the graph of " + warp_path, SizeOfGraph(warp)}, {in, Diagonal(loaded.cloud.points)});
-  if (!mismatch.has_value()) return;
-  console.Warn(mismatch->text + "; the warp is in the unit of ed_fit's SOURCE");
-}
-
-// Deforms the cloud, and writes it or its displacement.
-Outcome WriteDeformed(const ApplySettings& settings,
-                      const std::string& warp_path,
-                      const Warp& warp,
-                      const LoadedCloud& loaded) {
-  PointCloud cloud = loaded.cloud;
-  if (Status status = ApplyWarp(warp, &cloud); !status.ok()) {
-    return Outcome::BadInput(Status::Error(warp_path + ": " + status.message()));
+  if (HasLandmarkEnding(input)) return CheckLandmarkOutput(input, settings);
+  for (const std::string& output : {settings.output, settings.displacement}) {
+    if (output.empty()) continue;
+    if (Status status = CheckMeshEnding(output); !status.ok()) return status;
   }
-  const std::string& output = settings.output;
-  std::vector<std::string> losses;
-  Status saved = Status::Ok();
-  if (!output.empty()) {
-    losses = LossesOf(output, loaded.document);
-    saved = SaveCloud(output, loaded, cloud.points, cloud.HasNormals() ? &cloud.normals : nullptr);
-  }
-  if (saved.ok() && !settings.displacement.empty()) {
-    const PlyDocument document = WithDisplacement(loaded, cloud.points);
-    for (std::string& loss : LossesOf(settings.displacement, document)) {
-      losses.push_back(std::move(loss));
-    }
-    saved = WriteMesh(settings.displacement, document);
-  }
-  if (!saved.ok()) return Outcome::BadInput(saved);
-
-  Console console("ed_apply", /*quiet=*/false);
-  for (const std::string& loss : losses) console.Warn(loss);
-  const std::string deformed = std::to_string(cloud.size()) + " points deformed by " +
-                               std::to_string(warp.graph.num_nodes()) + " nodes\n";
-  if (!output.empty()) console.Summarize(output + ": " + deformed);
-  if (!settings.displacement.empty()) {
-    console.Summarize(settings.displacement + ": the displacement of " + deformed);
-  }
-  return Outcome::Done();
+  return Status::Ok();
 }
 
 Outcome Run(const std::vector<std::string>& arguments) {
   const StatusOr<ApplySettings> settings = kFlags.Read();
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
-  const bool has_cloud = arguments.size() > 1;
-  const std::string wrong = WrongNames(*settings, has_cloud);
-  if (!wrong.empty()) return Outcome::Usage(wrong);
+  const std::string& warp_path = arguments[0];
+  const std::string input = arguments.size() > 1 ? arguments[1] : "";
+  if (Status status = CheckNames(input, *settings); !status.ok()) {
+    return Outcome::Usage(status.message());
+  }
   for (const std::string& output : {settings->output, settings->displacement}) {
     if (output.empty()) continue;
-    if (Status status = CheckMeshEnding(output); !status.ok()) {
-      return Outcome::Usage(status.message());
-    }
     if (Status status = PrepareOutput(output); !status.ok()) return Outcome::BadInput(status);
   }
-  const StatusOr<Warp> warp = ReadWarp(arguments[0]);
+  const StatusOr<Warp> warp = ReadWarp(warp_path);
   if (!warp.ok()) return Outcome::BadInput(warp.status());
-  std::optional<LoadedCloud> loaded;
-  if (has_cloud) {
-    StatusOr<LoadedCloud> read = LoadCloud(arguments[1]);
-    if (!read.ok()) return Outcome::BadInput(read.status());
-    loaded = *std::move(read);
-    // As in a fit, so that the fit's own source gives the fit's result. A list of points, however,
-    // may hold annotations anywhere.
-    if (loaded->cloud.HasTriangles()) LeaveOutStrayVertices(arguments[1], &*loaded);
-    if (warp->repaired) {
-      for (std::string& done : RepairCloud(arguments[1], &loaded->cloud)) {
-        loaded->warnings.push_back(std::move(done) + ", as in the fit");
-      }
-    }
-    WarnOf(*loaded, arguments[1], *warp, arguments[0]);
+  std::optional<LoadedCloud> surface;
+  if (!settings->source.empty()) {
+    StatusOr<LoadedCloud> loaded = LoadFittedSurface(settings->source);
+    if (!loaded.ok()) return Outcome::BadInput(loaded.status());
+    surface = *std::move(loaded);
+    RepairAsInFit(settings->source, *warp, &*surface);
+  }
+  const bool is_cloud = !input.empty() && !HasLandmarkEnding(input);
+  std::optional<LoadedCloud> cloud;
+  if (is_cloud) {
+    StatusOr<LoadedCloud> loaded = LoadCloudToDeform(input, *warp);
+    if (!loaded.ok()) return Outcome::BadInput(loaded.status());
+    cloud = *std::move(loaded);
+    WarnOfCloud(*cloud, input, *warp, warp_path);
   }
   if (settings->field.HasOutput()) {
     Outcome outcome =
-        ApplyField(settings->field, arguments[0], *warp, has_cloud ? &loaded->cloud : nullptr);
+        ApplyField(settings->field, warp_path, *warp, is_cloud ? &cloud->cloud : nullptr);
     if (!outcome.done()) return outcome;
   }
   if (settings->output.empty() && settings->displacement.empty()) return Outcome::Done();
-  return WriteDeformed(*settings, arguments[0], *warp, *loaded);
+  const LoadedCloud* carrier = surface.has_value() ? &*surface : nullptr;
+  if (is_cloud) return ApplyToCloud(*settings, warp_path, *warp, *cloud, carrier);
+  return ApplyToLandmarks(*settings, warp_path, *warp, input, carrier);
 }
 
 const ProgramInfo kProgram = {
     "ed_apply",
     "WARP.json [IN] [--output=OUT] [--field=FIELD.nrrd]",
-    "Deforms a cloud or mesh with the warp that `ed_fit --warp=WARP.json` has written, for "
-    "example the full resolution of a model that was fitted coarsely, or annotations on it. IN "
-    "is in the frame and unit of ed_fit's SOURCE; its faces, colours and other properties are "
-    "kept. --field and --rigid write the warp for other tools; IN is then what the grid "
-    "surrounds.",
+    "Deforms a mesh, points, or landmarks (.mrk.json, .fcsv, .pts, .csv) with the warp that "
+    "`ed_fit --warp=WARP.json` has written, for example the full resolution of a model that was "
+    "fitted coarsely, or annotations on it. IN is in the frame and unit of ed_fit's SOURCE; its "
+    "faces, colours and other properties are kept. --field and --rigid write the warp for other "
+    "tools; IN is then what the grid surrounds.",
     "ed_apply warp.json full_resolution.ply --output=deformed.ply",
     1,
     2};

@@ -37,9 +37,10 @@ Outcome Run(const std::vector<std::string>& arguments) {
 const ProgramInfo kProgram = {
     "ed_fit",
     "SOURCE [TARGET] --output=OUT",
-    "Deforms SOURCE so that it lies on TARGET or, without TARGET, so that its --landmarks reach "
-    "their positions. The files are meshes or bare points (PLY, STL, OBJ, OFF, VTK, VTP, GLB, "
-    "PCD), in the same unit.",
+    "Deforms SOURCE so that it lies on TARGET or, without TARGET, so that its landmarks reach "
+    "their "
+    "positions. Both are meshes or bare points, in one unit: PLY, STL, OBJ, OFF, VTK, VTP, GLB or "
+    "PCD.",
     "ed_fit source.ply target.ply --output=fitted.ply --warp=warp.json --report=report.json",
     1,
     2};

@@ -24,8 +24,7 @@ const OptionTable<FitSettings>& FitSettingsRows() {
   static const OptionTable<S> rows({
       Row(&S::output,
           "output",
-          "Mesh to write, in the format of its ending: the fitted SOURCE with all its data; "
-          "required.")
+          "Mesh to write: the fitted SOURCE with all its other data; required.")
           .Letter('o')
           .File(),
       Row(&S::warp, "warp", "JSON to write: the deformation, for ed_apply.").File(),
@@ -33,24 +32,32 @@ const OptionTable<FitSettings>& FitSettingsRows() {
       Row(&S::report, "report", "JSON to write: the settings, errors and times of the fit.").File(),
       Row(&S::covariance,
           "covariance",
-          "Mesh to write: the covariance xx xy xz yy yz zz of each point. Without a file name: "
-          "only "
-          "std_dev in OUT.")
+          "Mesh to write: covariances of points; true: only std_dev in OUT.")
           .File()
           .Alone("true"),
       Row(&S::landmarks,
           "landmarks",
-          "CSV to read, rows source_index,x,y,z: positions in the frame of TARGET.")
+          "CSV to read, rows source_index,x,y,z in the frame of TARGET.")
           .File(),
+      Row(&S::source_landmarks,
+          "source_landmarks",
+          "Named points on SOURCE to read: .mrk.json, .fcsv, .json, .pts, .csv.")
+          .File(),
+      Row(&S::target_landmarks,
+          "target_landmarks",
+          "Those on TARGET, which are matched to them by name.")
+          .File(),
+      Row(&S::landmark_use, "landmark_use", "Named points draw the fit, or measure it.").Main(),
+      Row(&S::mesh_space,
+          "mesh_space",
+          "The axes of the meshes, into which named points in RAS or LPS are turned. auto: what a "
+          "mesh file says, otherwise LPS."),
       Row(&S::fixed, "fixed", "Text to read: indices of source points that must not move.").File(),
       Row(&S::plugin, "plugin", "Shared object with more energies, or several, separated by ';'.")
           .File(),
-      Row(&S::scale,
-          "scale",
-          "SOURCE is multiplied by this: a number, auto (by the sizes), or units such as mm:m.")
-          .Main(),
+      Row(&S::scale, "scale", "A factor for SOURCE: a number, auto, or units such as mm:m.").Main(),
       Row(&S::repair, "repair", "Mend what ed_check finds and what is safe to mend.").Main(),
-      Row(&S::fail_if, "fail_if", "End with exit code 3 if the verdict is this, or worse.").Main(),
+      Row(&S::fail_if, "fail_if", "Exit code 3 from this verdict on.").Main(),
       Nested(&S::options, FitOptions::Rows()).Internal("covariance"),
   });
   return rows;

@@ -1,6 +1,7 @@
 // Surfaces in the files of VTK, for programs that load this module when such a file is named.
 #include <ceres_ed/io/mesh/format_content.h>
 #include <ceres_ed/io/mesh/mesh_module.h>
+#include <ceres_ed/io/mesh/mesh_space.h>
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/version.h>
 #include <ceres_ed/vtk/document_from_vtk.h>
@@ -13,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include <vtkFieldData.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkObjectFactory.h>
@@ -21,6 +23,7 @@
 #include <vtkPolyDataReader.h>
 #include <vtkPolyDataWriter.h>
 #include <vtkSmartPointer.h>
+#include <vtkStringArray.h>
 #include <vtkXMLPolyDataReader.h>
 #include <vtkXMLPolyDataWriter.h>
 
@@ -73,6 +76,8 @@ class MessageScope {
   vtkNew<Messages> own_;
   vtkSmartPointer<vtkOutputWindow> before_;
 };
+
+constexpr char kSpaceArray[] = "SPACE";
 
 Status Damaged(const std::string& path, const std::string& message) {
   return Status::Error(path + ": VTK cannot read it as a surface (poly data)" +
@@ -139,6 +144,13 @@ Status ReadVtkFile(const std::string& path, PlyDocument* document) {
     if (surface == nullptr || !messages.first().empty()) return Damaged(path, messages.first());
     if (Status status = CheckCells(path, surface); !status.ok()) return status;
     *document = DocumentFromVtk(surface);
+    // 3D Slicer keeps the space there.
+    auto* const space =
+        vtkStringArray::SafeDownCast(surface->GetFieldData()->GetAbstractArray(kSpaceArray));
+    if (space != nullptr && space->GetNumberOfValues() > 0) {
+      const std::string mark = "SPACE=" + std::string(space->GetValue(0));
+      if (!FindSpaceMark(mark).empty()) document->comments.push_back(mark);
+    }
   } catch (const std::exception& error) {
     return Damaged(path, error.what());
   }
@@ -152,6 +164,12 @@ Status EncodeVtk(const std::string& path, const PlyDocument& document, std::stri
   const bool is_xml = path.size() >= 4 && (path[path.size() - 1] | 0x20) == 'p';
   try {
     if (is_xml) {
+      if (const std::string mark(SpaceMarkOf(document)); !mark.empty()) {
+        const vtkNew<vtkStringArray> space;
+        space->SetName(kSpaceArray);
+        space->InsertNextValue(mark.substr(mark.find('=') + 1));
+        (*surface)->GetFieldData()->AddArray(space);
+      }
       const vtkNew<vtkXMLPolyDataWriter> writer;
       writer->SetInputData(*surface);
       writer->WriteToOutputStringOn();
@@ -160,7 +178,8 @@ Status EncodeVtk(const std::string& path, const PlyDocument& document, std::stri
     } else {
       const vtkNew<vtkPolyDataWriter> writer;
       writer->SetInputData(*surface);
-      writer->SetHeader("written by ceres_ed");
+      const std::string title = "written by ceres_ed " + std::string(SpaceMarkOf(document));
+      writer->SetHeader(title.c_str());
       writer->SetFileTypeToBinary();
       // Programs with a VTK before 9 read this version, too.
       writer->SetFileVersion(vtkDataWriter::VTK_LEGACY_READER_VERSION_4_2);

@@ -4,6 +4,7 @@
 
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/mesh/mesh_format.h>
+#include <ceres_ed/io/mesh/mesh_space.h>
 
 #include <cstdint>
 #include <cstring>
@@ -241,6 +242,19 @@ TEST_F(MeshFiles, AFileIsReadAsWhatItIsAndAWrongNameIsSaid) {
     }
     EXPECT_THAT(Read("c.mesh", bytes).warnings, IsEmpty());
     EXPECT_THAT(Read("c", bytes).warnings, IsEmpty());
+  }
+}
+
+TEST_F(MeshFiles, TheSpaceThatSlicerNamesSurvives) {
+  PlyDocument document = OddMesh(PlyType::kFloat32);
+  document.comments = {"3D Slicer output. SPACE=RAS"};
+  for (const PlyFormat format : {PlyFormat::kAscii, PlyFormat::kBinaryLittleEndian}) {
+    document.format = format;
+    for (const std::string name : {"a.ply", "a.stl", "a.obj", "a.off"}) {
+      const PlyDocument again = WrittenAndRead(document, name);
+      EXPECT_EQ(SpaceOfDocument(again), AnatomicalSpace::kRas) << name;
+      EXPECT_EQ(SpaceMarkOf(again), "SPACE=RAS") << name;
+    }
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/mesh/mesh_format.h>
+#include <ceres_ed/io/mesh/mesh_space.h>
 
 #include <string>
 #include <vector>
@@ -59,6 +60,16 @@ TEST(VtkFile, BothFormatsKeepAllBitsTypesFacesAndData) {
       ASSERT_TRUE(WriteMesh(directory / ("b" + name), again).ok());
       EXPECT_EQ(ReadBytes(directory / name), ReadBytes(directory / ("b" + name))) << name;
     }
+  }
+}
+
+TEST(VtkFile, TheSpaceThatSlicerNamesSurvives) {
+  const TemporaryDirectory directory;
+  PlyDocument document = OddMesh(PlyType::kFloat32);
+  document.comments = {"SPACE=RAS"};
+  for (const std::string name : {"a.vtk", "a.vtp"}) {
+    ASSERT_TRUE(WriteMesh(directory / name, document).ok());
+    EXPECT_EQ(SpaceOfDocument(ReadOk(directory / name)), AnatomicalSpace::kRas) << name;
   }
 }
 

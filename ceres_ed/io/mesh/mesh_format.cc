@@ -2,6 +2,7 @@
 
 #include <ceres_ed/io/mesh/format_content.h>
 #include <ceres_ed/io/mesh/gltf_file.h>
+#include <ceres_ed/io/mesh/mesh_space.h>
 #include <ceres_ed/io/mesh/obj_file.h>
 #include <ceres_ed/io/mesh/off_file.h>
 #include <ceres_ed/io/mesh/pcd_file.h>
@@ -52,18 +53,27 @@ std::string EndingOf(const std::string& path) {
   return ending;
 }
 
-// Returns the format of the content, or null.
-StatusOr<const MeshFormat*> Recognise(const std::string& path) {
+// What the first bytes of a file say.
+struct Content {
+  // Null if no format recognises them.
+  const MeshFormat* format = nullptr;
+  // See mesh_space.h.
+  std::string space_mark;
+};
+
+StatusOr<Content> Recognise(const std::string& path) {
   std::ifstream file;
   const StatusOr<std::size_t> size = OpenRegularFile(path, &file);
   if (!size.ok()) return size.status();
   std::string start(std::min(*size, kMeshStartSize), '\0');
   file.read(start.data(), static_cast<std::streamsize>(start.size()));
   start.resize(static_cast<std::size_t>(file.gcount()));
+  Content content;
+  content.space_mark = std::string(FindSpaceMark(start));
   for (const MeshFormat& format : kFormats) {
-    if (format.recognises(start, *size)) return &format;
+    if (content.format == nullptr && format.recognises(start, *size)) content.format = &format;
   }
-  return static_cast<const MeshFormat*>(nullptr);
+  return content;
 }
 
 }  // namespace
@@ -86,14 +96,17 @@ Status CheckMeshEnding(const std::string& path) {
 }
 
 StatusOr<PlyDocument> ReadMesh(const std::string& path) {
-  const StatusOr<const MeshFormat*> by_content = Recognise(path);
-  if (!by_content.ok()) return by_content.status();
+  const StatusOr<Content> content = Recognise(path);
+  if (!content.ok()) return content.status();
   const MeshFormat* const by_ending = FindMeshFormat(path);
-  const MeshFormat* const format = *by_content != nullptr ? *by_content
-                                   : by_ending != nullptr ? by_ending
-                                                          : &kFormats[0];
+  const MeshFormat* const format = content->format != nullptr ? content->format
+                                   : by_ending != nullptr     ? by_ending
+                                                              : &kFormats[0];
   StatusOr<PlyDocument> document = format->read(path);
   const bool is_mismatch = by_ending != nullptr && !EndingOf(path).empty() && format != by_ending;
+  if (document.ok() && SpaceMarkOf(*document) != content->space_mark) {
+    document->comments.push_back(content->space_mark);
+  }
   if (document.ok() && is_mismatch) {
     document->warnings.push_back("the file is named as " + std::string(by_ending->name) +
                                  " and holds " + format->name + ", as which it was read");

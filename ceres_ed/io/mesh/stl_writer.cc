@@ -1,6 +1,7 @@
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/mesh/byte_order.h>
 #include <ceres_ed/io/mesh/face_groups.h>
+#include <ceres_ed/io/mesh/mesh_space.h>
 #include <ceres_ed/io/mesh/mesh_view.h>
 #include <ceres_ed/io/mesh/stl_file.h>
 
@@ -50,7 +51,7 @@ std::uint16_t AttributeOf(const PlyElement& faces, std::size_t face) {
   return bits > 0.0 && bits <= 65535.0 ? static_cast<std::uint16_t>(bits) : std::uint16_t{0};
 }
 
-std::string Binary(const MeshView& view) {
+std::string Binary(const PlyDocument& document, const MeshView& view) {
   std::string triangles;
   std::uint32_t count = 0;
   for (std::size_t face = 0; face < view.NumFaces(); ++face) {
@@ -62,7 +63,7 @@ std::string Binary(const MeshView& view) {
       ++count;
     }
   }
-  std::string bytes = "binary STL, written by ceres_ed";
+  std::string bytes = "binary STL, written by ceres_ed " + std::string(SpaceMarkOf(document));
   bytes.resize(80, ' ');
   AppendBytes(count, &bytes);
   return bytes + triangles;
@@ -81,9 +82,12 @@ void AppendLine(const char* words, const Eigen::Vector3f& vector, std::string* t
 std::string Ascii(const PlyDocument& document, const MeshView& view) {
   const FaceGroups groups = FaceGroups::Of(document);
   std::string name = groups.GroupOf(0).names[0];
+  const std::string_view mark = SpaceMarkOf(document);
+  if (FindSpaceMark(name).empty() && !mark.empty()) name += ' ' + std::string(mark);
   std::string text = "solid " + name + '\n';
   for (std::size_t face = 0; face < view.NumFaces(); ++face) {
-    if (const std::string& own = groups.GroupOf(face).names[0]; own != name) {
+    if (const std::string& own = groups.GroupOf(face).names[0];
+        own != groups.GroupOf(face == 0 ? 0 : face - 1).names[0]) {
       text += "endsolid " + name + "\nsolid " + own + '\n';
       name = own;
     }
@@ -109,7 +113,8 @@ Status WriteStl(const std::string& path, const PlyDocument& document) {
                          "name that ends in .ply");
   }
   return WriteFileAtomically(
-      path, document.format == PlyFormat::kAscii ? Ascii(document, *view) : Binary(*view));
+      path,
+      document.format == PlyFormat::kAscii ? Ascii(document, *view) : Binary(document, *view));
 }
 
 }  // namespace ceres_ed

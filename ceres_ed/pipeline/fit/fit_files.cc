@@ -3,6 +3,7 @@
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/io/graph_io.h>
 #include <ceres_ed/io/mesh/mesh_format.h>
+#include <ceres_ed/io/mesh/mesh_space.h>
 #include <ceres_ed/io/mesh/vertex_columns.h>
 #include <ceres_ed/io/point_list_io.h>
 #include <ceres_ed/io/warp_io.h>
@@ -14,6 +15,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -54,7 +56,16 @@ Status LeftOut(const std::string& list, int vertex, const FitFiles& files) {
                        " (not measured, or far from all others), expected another one");
 }
 
+void Append(const std::vector<std::string>& from, std::vector<std::string>* to) {
+  to->insert(to->end(), from.begin(), from.end());
+}
+
 Status LoadLandmarks(const std::string& path, FitFiles* files) {
+  if (HasLandmarkEnding(path) && std::filesystem::path(path).extension() != ".csv") {
+    return Status::Error(path +
+                         ": has points of one surface, expected rows source_index,x,y,z; named "
+                         "points go to --source_landmarks and --target_landmarks");
+  }
   const StatusOr<std::vector<Landmark>> landmarks = ReadLandmarks(path, files->source.points);
   if (!landmarks.ok()) return landmarks.status();
   const std::vector<int> points = PointsOfVertices(*files);
@@ -62,6 +73,21 @@ Status LoadLandmarks(const std::string& path, FitFiles* files) {
     const int point = points[landmark.point];
     if (point < 0) return LeftOut(path, landmark.point, *files);
     files->input.landmarks.push_back({point, landmark.position});
+  }
+  return Status::Ok();
+}
+
+Status LoadNamed(const FitSettings& settings, const PlyDocument& target_document, FitFiles* files) {
+  StatusOr<NamedLandmarks> named = LoadNamedLandmarks(settings,
+                                                      {files->input.source, files->source_document},
+                                                      {files->input.target, target_document});
+  if (!named.ok()) return named.status();
+  files->named = *std::move(named);
+  Append(files->named.warnings, &files->warnings);
+  files->named_begin = files->input.landmarks.size();
+  if (settings.landmark_use == LandmarkUse::kMeasure) return Status::Ok();
+  for (const Landmark& landmark : LandmarkConstraints(files->named.pairs, files->input.source)) {
+    files->input.landmarks.push_back(landmark);
   }
   return Status::Ok();
 }
@@ -77,8 +103,18 @@ Status LoadFixed(const std::string& path, FitFiles* files) {
   return Status::Ok();
 }
 
-void Append(const std::vector<std::string>& from, std::vector<std::string>* to) {
-  to->insert(to->end(), from.begin(), from.end());
+// Warns where the files name different anatomical spaces.
+void WarnOfSpaces(const FitFiles& files,
+                  const PlyDocument& target_document,
+                  std::vector<std::string>* warnings) {
+  const std::string source(SpaceMarkOf(files.source_document));
+  const std::string target(SpaceMarkOf(target_document));
+  if (source.empty() || target.empty() || source == target) return;
+  warnings->push_back(files.source.path + " says " + source + " and " + files.target.path +
+                      " says " + target +
+                      ": x and y of one of them are turned, and the output, "
+                      "which lies on TARGET, still says " +
+                      source);
 }
 
 // Reads a cloud without its stray vertices, and mends it if `repair`.
@@ -187,11 +223,15 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
     target_document = std::move(target->document);
   }
   Append(LossesOf(settings.output, files.source_document), &files.warnings);
+  WarnOfSpaces(files, target_document, &files.warnings);
   files.checks = CheckFiles({settings.source, &files.input.source, &files.source_document},
                             {settings.target, &files.input.target, &target_document},
                             should_stop);
   if (!settings.landmarks.empty()) {
     if (Status status = LoadLandmarks(settings.landmarks, &files); !status.ok()) return status;
+  }
+  if (!settings.source_landmarks.empty()) {
+    if (Status status = LoadNamed(settings, target_document, &files); !status.ok()) return status;
   }
   if (!settings.fixed.empty()) {
     if (Status status = LoadFixed(settings.fixed, &files); !status.ok()) return status;

@@ -4,6 +4,7 @@
 
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/fit/fit_settings.h>
+#include <ceres_ed/pipeline/fit/named_landmarks.h>
 #include <ceres_ed/preflight/finding.h>
 #include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/status.h>
@@ -36,6 +37,10 @@ struct FitFiles {
   // result is written.
   PlyDocument source_document;
   std::vector<int> vertex_of_point;
+  // Landmarks by name. If they are used for the fit, their constraints stand in `input`, from
+  // number `named_begin` on.
+  NamedLandmarks named;
+  std::size_t named_begin = 0;
   std::vector<std::string> warnings;
   // What the checks of the inputs have found.
   std::vector<Finding> checks;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace ceres_ed {
 namespace {
@@ -106,6 +107,38 @@ ordered_json RigidReport(const Similarity& rigid) {
           {"scale", rigid.scale}};
 }
 
+ordered_json Numbers(const Eigen::Vector3d& point) { return {point.x(), point.y(), point.z()}; }
+
+// Returns the figures of all landmarks; with their names if they have some.
+ordered_json LandmarksReport(const FitRun& run) {
+  const LandmarkErrors constraints = MeasureLandmarks(run);
+  ordered_json report = {
+      {"count", constraints.count}, {"rms", constraints.rms}, {"max", constraints.max}};
+  const NamedLandmarks& named = run.files->named;
+  if (named.pairs.empty()) return report;
+  report["use"] = NameOf(run.settings->landmark_use);
+  report["only_source"] = named.only_source;
+  report["only_target"] = named.only_target;
+  const std::vector<LandmarkError> errors = MeasureNamedLandmarks(run);
+  for (const auto& [name, kind] : {std::pair("before", &LandmarkError::before),
+                                   std::pair("rigid", &LandmarkError::rigid),
+                                   std::pair("after", &LandmarkError::after)}) {
+    const LandmarkErrors summary = SummarizeLandmarks(errors, kind);
+    report[name] = {{"rms", summary.rms}, {"max", summary.max}};
+  }
+  ordered_json pairs = ordered_json::array();
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    pairs.push_back({{"name", named.pairs[i].name},
+                     {"source", Numbers(named.pairs[i].source)},
+                     {"target", Numbers(named.pairs[i].target)},
+                     {"before", errors[i].before},
+                     {"rigid", errors[i].rigid},
+                     {"after", errors[i].after}});
+  }
+  report["pairs"] = std::move(pairs);
+  return report;
+}
+
 ordered_json DisplacementReport(const FitRun& run) {
   double sum = 0.0;
   double max = 0.0;
@@ -176,7 +209,6 @@ std::vector<std::string> FitWarnings(const FitRun& run) {
 
 ordered_json FitReport(const FitRun& run) {
   const FitResult& result = *run.result;
-  const LandmarkErrors landmarks = MeasureLandmarks(run);
   return {
       {"program", "ed_fit"},
       {"version", kVersion},
@@ -194,7 +226,7 @@ ordered_json FitReport(const FitRun& run) {
        {{"point_to_plane", result.matches.rms_plane},
         {"point_to_point", result.matches.rms_point}}},
       {"noise", result.noise},
-      {"landmarks", {{"count", landmarks.count}, {"rms", landmarks.rms}, {"max", landmarks.max}}},
+      {"landmarks", LandmarksReport(run)},
       {"fixed", {{"count", run.files->input.fixed_points.size()}, {"max", result.max_fixed_error}}},
       {"rigid", RigidReport(result.rigid)},
       {"hypothesis", result.hypothesis},

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace ceres_ed {
 namespace {
@@ -76,21 +77,54 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
 }  // namespace
 
 LandmarkErrors MeasureLandmarks(const FitRun& run) {
-  return MeasureLandmarks(run.files->input, *run.result);
+  const FitFiles& files = *run.files;
+  std::vector<LandmarkError> errors;
+  if (run.settings->landmark_use == LandmarkUse::kFit) errors = MeasureNamedLandmarks(run);
+  const std::size_t by_index =
+      files.named.pairs.empty() ? files.input.landmarks.size() : files.named_begin;
+  for (std::size_t i = 0; i < by_index && !run.result->points.empty(); ++i) {
+    const Landmark& landmark = files.input.landmarks[i];
+    LandmarkError error;
+    error.after = (run.result->points[landmark.point] - landmark.position).norm();
+    errors.push_back(error);
+  }
+  LandmarkErrors summary = SummarizeLandmarks(errors, &LandmarkError::after);
+  if (errors.empty()) summary.count = static_cast<int>(by_index);
+  return summary;
+}
+
+std::vector<LandmarkError> MeasureNamedLandmarks(const FitRun& run) {
+  return MeasureLandmarkPairs(run.files->named.pairs,
+                              run.files->input.source,
+                              run.result->points,
+                              run.result->rigid,
+                              run.initial_scale);
+}
+
+LandmarkErrors SummarizeLandmarks(const std::vector<LandmarkError>& errors,
+                                  double LandmarkError::*kind) {
+  LandmarkErrors summary;
+  summary.count = static_cast<int>(errors.size());
+  double sum = 0.0;
+  for (const LandmarkError& error : errors) {
+    sum += error.*kind * (error.*kind);
+    summary.max = std::max(summary.max, error.*kind);
+  }
+  if (!errors.empty()) summary.rms = std::sqrt(sum / static_cast<double>(errors.size()));
+  return summary;
 }
 
 LandmarkErrors MeasureLandmarks(const FitInput& input, const FitResult& result) {
-  LandmarkErrors errors;
-  double sum = 0.0;
+  std::vector<LandmarkError> errors;
   for (const Landmark& landmark : input.landmarks) {
     if (result.points.empty()) break;
-    const double error = (result.points[landmark.point] - landmark.position).norm();
-    sum += error * error;
-    errors.max = std::max(errors.max, error);
+    LandmarkError error;
+    error.after = (result.points[landmark.point] - landmark.position).norm();
+    errors.push_back(error);
   }
-  errors.count = static_cast<int>(input.landmarks.size());
-  if (errors.count > 0) errors.rms = std::sqrt(sum / errors.count);
-  return errors;
+  LandmarkErrors summary = SummarizeLandmarks(errors, &LandmarkError::after);
+  summary.count = static_cast<int>(input.landmarks.size());
+  return summary;
 }
 
 int NumPointRelevant(const FitResult& result) {
@@ -100,7 +134,14 @@ int NumPointRelevant(const FitResult& result) {
 }
 
 Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* observer) {
-  if (settings.target.empty() && settings.landmarks.empty()) {
+  if (settings.source_landmarks.empty() != settings.target_landmarks.empty()) {
+    return Outcome::Usage(
+        "--source_landmarks and --target_landmarks belong together: one is given, "
+        "expected both or none");
+  }
+  const bool has_named =
+      !settings.source_landmarks.empty() && settings.landmark_use == LandmarkUse::kFit;
+  if (settings.target.empty() && settings.landmarks.empty() && !has_named) {
     return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
   }
   // Check the arguments and the outputs before the computation.
@@ -132,7 +173,9 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
         settings.source + (settings.target.empty() ? "" : ", " + settings.target);
     return Outcome::BadInput(Status::Error(inputs + ": " + result.status().message()));
   }
-  return Conclude({&settings, &*files, &*result, &registry, load_s}, clock, observer);
+  FitRun run{&settings, &*files, &*result, &registry, load_s};
+  run.initial_scale = options.rigid.initial_scale;
+  return Conclude(std::move(run), clock, observer);
 }
 
 }  // namespace ceres_ed

@@ -27,6 +27,8 @@ struct FitRun {
   double load_s = 0.0;
   double write_s = 0.0;
   double total_s = 0.0;
+  // By what the source was multiplied before anything else.
+  double initial_scale = 1.0;
   // All warnings (FitWarnings()).
   std::vector<std::string> warnings;
   Verdict verdict;
@@ -39,11 +41,20 @@ struct LandmarkErrors {
   double max = 0.0;
 };
 
-// Returns the errors of all landmarks; only their count if the fit has no points.
+// Returns the errors of the landmarks that draw the fit, by index or by name; only their count if
+// the fit has no points.
 LandmarkErrors MeasureLandmarks(const FitRun& run);
 
 // Returns the same of a fit without files.
 LandmarkErrors MeasureLandmarks(const FitInput& input, const FitResult& result);
+// Returns the errors of the landmarks that are named on both surfaces, whether they drew the fit or
+// not; empty if there are none, or the fit has no warp.
+std::vector<LandmarkError> MeasureNamedLandmarks(const FitRun& run);
+
+// Returns count, root of the mean square and maximum of one kind of error, for example
+// &LandmarkError::after.
+LandmarkErrors SummarizeLandmarks(const std::vector<LandmarkError>& errors,
+                                  double LandmarkError::*kind);
 
 // Returns the number of nodes with data (PR nodes).
 int NumPointRelevant(const FitResult& result);

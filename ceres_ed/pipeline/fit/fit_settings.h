@@ -18,6 +18,21 @@ constexpr std::array<NamedValue<FailIf>, 3> NamesOf(FailIf) {
   return {{{"never", FailIf::kNever}, {"doubtful", FailIf::kDoubtful}, {"bad", FailIf::kBad}}};
 }
 
+// What becomes of landmarks that are named on both surfaces: they draw the fit, or only measure it.
+enum class LandmarkUse { kFit, kMeasure };
+
+constexpr std::array<NamedValue<LandmarkUse>, 2> NamesOf(LandmarkUse) {
+  return {{{"fit", LandmarkUse::kFit}, {"measure", LandmarkUse::kMeasure}}};
+}
+
+// The anatomical space of the meshes, into which landmarks are turned (landmark_file.h). `auto`:
+// what their files say, otherwise LPS.
+enum class MeshSpace { kAuto, kLps, kRas };
+
+constexpr std::array<NamedValue<MeshSpace>, 3> NamesOf(MeshSpace) {
+  return {{{"auto", MeshSpace::kAuto}, {"LPS", MeshSpace::kLps}, {"RAS", MeshSpace::kRas}}};
+}
+
 // A path is empty if the file is not given or not requested.
 struct FitSettings {
   FitOptions options;
@@ -25,6 +40,11 @@ struct FitSettings {
   std::string source;
   std::string target;
   std::string landmarks;
+  // Landmarks by name; both or none (named_landmarks.h).
+  std::string source_landmarks;
+  std::string target_landmarks;
+  LandmarkUse landmark_use = LandmarkUse::kFit;
+  MeshSpace mesh_space = MeshSpace::kAuto;
   std::string fixed;
   // The unit of the source against that of the target (scale_setting.h).
   std::string scale;
