@@ -10,8 +10,12 @@
 #include <ceres_ed/io/field/grid_reader.h>
 #include <ceres_ed/io/image_io.h>
 #include <ceres_ed/io/json_file.h>
+#include <ceres_ed/io/landmarks/landmark_file.h>
+#include <ceres_ed/io/mesh/obj_file.h>
+#include <ceres_ed/io/mesh/off_file.h>
 #include <ceres_ed/io/mesh/ply_reader.h>
 #include <ceres_ed/io/mesh/ply_writer.h>
+#include <ceres_ed/io/mesh/stl_file.h>
 #include <ceres_ed/io/npy_file.h>
 #include <ceres_ed/io/point_list_io.h>
 #include <ceres_ed/io/pose_matrix.h>
@@ -134,6 +138,38 @@ std::string FixedFault(const std::string& path, const std::string&) {
   return FaultOf(ReadVertexList(path, kNumVertices), path);
 }
 
+// A mesh must also make a cloud, or an error, of whatever its faces name.
+std::string MeshFault(const std::string& path,
+                      const std::string& scratch,
+                      StatusOr<PlyDocument> (*read)(const std::string&),
+                      Status (*write)(const std::string&, const PlyDocument&)) {
+  if (std::string fault = FaultOf(LoadCloud(path), path); !fault.empty()) return fault;
+  return FaultOfRoundTrip(path, scratch, read, write);
+}
+
+std::string ObjFault(const std::string& path, const std::string& scratch) {
+  return MeshFault(path, scratch, ReadObj, WriteObj);
+}
+
+std::string OffFault(const std::string& path, const std::string& scratch) {
+  return MeshFault(path, scratch, ReadOff, WriteOff);
+}
+
+std::string StlFault(const std::string& path, const std::string& scratch) {
+  return MeshFault(path, scratch, ReadStl, WriteStl);
+}
+
+// The reader is chosen by the ending.
+std::string NamedPointsFault(const std::string& path, const std::string& scratch) {
+  const auto read = [](const std::string& file) { return ReadLandmarkFile(file); };
+  const auto write = [](const std::string& file, const LandmarkFile& landmarks) {
+    std::vector<Eigen::Vector3d> positions;
+    for (const NamedPoint& point : landmarks.points) positions.push_back(point.position);
+    return WriteLandmarkFile(file, landmarks, positions);
+  };
+  return FaultOfRoundTrip(path, scratch, read, write);
+}
+
 std::string FramesFault(const std::string& path, const std::string&) {
   return FaultOf(ReadFrameLog(path), path);
 }
@@ -241,6 +277,7 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"csv", ".csv", CsvFault},
       {"depth", ".png", DepthFault},
       {"energies", ".txt", EnergiesFault},
+      {"fcsv", ".fcsv", NamedPointsFault},
       {"fixed", ".txt", FixedFault},
       {"frames", ".csv", FramesFault},
       {"image_grid", ".image", ImageGridFault},
@@ -250,13 +287,19 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"landmarks", ".csv", LandmarksFault},
       {"live", ".ply", LiveFault},
       {"llff", ".npy", LlffFault},
+      {"markups", ".json", NamedPointsFault},
       {"matrix", ".txt", MatrixFault},
+      {"named_points", ".csv", NamedPointsFault},
       {"npy", ".npy", NpyFault},
+      {"obj", ".obj", ObjFault},
+      {"off", ".off", OffFault},
       {"picture_size", ".png", PictureSizeFault},
       {"ply", ".ply", PlyFault},
       {"pose_matrix", ".txt", PoseMatrixFault},
       {"poses", ".txt", PosesFault},
+      {"pts", ".pts", NamedPointsFault},
       {"stereo", ".txt", StereoFault},
+      {"stl", ".stl", StlFault},
       {"tracks", ".csv", TracksFault},
       {"trajectory", ".txt", TrajectoryFault},
       {"warp", ".json", WarpFault},
