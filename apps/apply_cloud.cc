@@ -5,6 +5,7 @@
 #include <ceres_ed/pipeline/apply/vertex_displacement.h>
 #include <ceres_ed/pipeline/apply/warped_points.h>
 #include <ceres_ed/pipeline/fit/stray_vertices.h>
+#include <ceres_ed/pipeline/intention.h>
 #include <ceres_ed/preflight/compare_sizes.h>
 #include <ceres_ed/preflight/repair.h>
 
@@ -37,7 +38,7 @@ void RepairAsInFit(const std::string& path, const Warp& warp, LoadedCloud* loade
 }
 
 StatusOr<LoadedCloud> LoadCloudToDeform(const std::string& path, const Warp& warp) {
-  StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  StatusOr<LoadedCloud> loaded = LoadSurface(path);
   if (!loaded.ok()) return loaded;
   // As in a fit, so that the fit's own source gives the fit's result. A list of points, however,
   // may hold annotations anywhere.

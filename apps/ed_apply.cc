@@ -4,6 +4,7 @@
 #include <ceres_ed/io/mesh/mesh_format.h>
 #include <ceres_ed/io/warp_io.h>
 #include <ceres_ed/pipeline/apply/warped_points.h>
+#include <ceres_ed/pipeline/intention.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/util/options.h>
 
@@ -94,6 +95,10 @@ Outcome Run(const std::vector<std::string>& arguments) {
   if (!settings.ok()) return Outcome::Usage(settings.status().message());
   const std::string& warp_path = arguments[0];
   const std::string input = arguments.size() > 1 ? arguments[1] : "";
+  if (KindOfFile(input) == FileKind::kWarp) {
+    return Outcome::Usage(input +
+                          " is a warp, which comes first: ed_apply WARP.json IN --output=OUT");
+  }
   if (Status status = CheckNames(input, *settings); !status.ok()) {
     return Outcome::Usage(status.message());
   }
@@ -101,7 +106,7 @@ Outcome Run(const std::vector<std::string>& arguments) {
     if (output.empty()) continue;
     if (Status status = PrepareOutput(output); !status.ok()) return Outcome::BadInput(status);
   }
-  const StatusOr<Warp> warp = ReadWarp(warp_path);
+  const StatusOr<Warp> warp = LoadWarp(warp_path);
   if (!warp.ok()) return Outcome::BadInput(warp.status());
   std::optional<LoadedCloud> surface;
   if (!settings->source.empty()) {

@@ -79,7 +79,8 @@ std::string FitSummary(const FitRun& run) {
              result.matches.rms_plane,
              result.matches.rms_point);
   }
-  if (const LandmarkErrors errors = MeasureLandmarks(run); errors.count > 0 && !run.settings->landmarks.empty()) {
+  if (const LandmarkErrors errors = MeasureLandmarks(run);
+      errors.count > 0 && !run.settings->landmarks.empty()) {
     summary += Line(
         "landmarks  %d, rms %.4g, max %.4g, target units", errors.count, errors.rms, errors.max);
   }

@@ -176,8 +176,14 @@ StatusOr<CommandLine> ParseCommandLine(const ProgramInfo& info, int argc, const 
   if (!parsed.ok() || parsed->request != CommandLine::Request::kRun) return parsed;
   const int count = static_cast<int>(parsed->arguments.size());
   if (count < info.min_arguments || count > info.max_arguments) {
-    return Status::Error(std::to_string(count) + " arguments given, expected " +
-                         ArgumentCountText(info) + ": " + info.name + " " + info.arguments);
+    // A file too many is likely to be that of the output.
+    gflags::CommandLineFlagInfo output;
+    const bool is_output = count == info.max_arguments + 1 && FindFlag("output", &output) &&
+                           output.current_value.empty();
+    return Status::Error(
+        std::to_string(count) + " arguments given, expected " + ArgumentCountText(info) + ": " +
+        info.name + " " + info.arguments +
+        (is_output ? "; did you mean --output=" + parsed->arguments.back() + "?" : ""));
   }
   return parsed;
 }

@@ -9,6 +9,11 @@
 namespace ceres_ed {
 
 Status PrepareOutput(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) {
+    return Status::Error(path + ": is a folder, expected the name of a file to write, such as " +
+                         (std::filesystem::path(path) / "fitted.ply").string());
+  }
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);

@@ -1,6 +1,7 @@
 #include "ceres_ed/io/mesh/format_content.h"
 
 #include <ceres_ed/io/mesh/stl_file.h>
+#include <ceres_ed/io/text.h>
 #include <ceres_ed/util/text.h>
 
 #include <algorithm>
@@ -61,15 +62,24 @@ bool IsOff(std::string_view start, std::size_t /*size*/) {
 }
 
 bool IsStl(std::string_view start, std::size_t size) {
-  return HasSizeOfBinaryStl(start, size) || BeginsWith(Trim(start), "solid");
+  if (HasSizeOfBinaryStl(start, size)) return true;
+  const std::string_view text = Trim(start);
+  return BeginsWith(text, "solid") && (text.find("facet") != std::string_view::npos ||
+                                       text.find("endsolid") != std::string_view::npos);
 }
 
 bool IsObj(std::string_view start, std::size_t /*size*/) {
   constexpr std::array<std::string_view, 12> kKeywords = {
       "v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "mtllib", "usemtl"};
   const std::vector<std::string_view> words = FirstWords(start);
-  return !words.empty() && start.find('\0') == std::string_view::npos &&
-         std::find(kKeywords.begin(), kKeywords.end(), words[0]) != kKeywords.end();
+  const bool begins_as_obj =
+      !words.empty() && std::find(kKeywords.begin(), kKeywords.end(), words[0]) != kKeywords.end();
+  if (!begins_as_obj || start.find('\0') != std::string_view::npos) return false;
+  for (const std::string_view line : SplitLines(start, '\n')) {
+    const std::vector<std::string_view> vertex = SplitWords(line, " \t\r");
+    if (vertex.size() >= 4 && vertex[0] == "v" && ParseDouble(vertex[1]).has_value()) return true;
+  }
+  return false;
 }
 
 }  // namespace ceres_ed

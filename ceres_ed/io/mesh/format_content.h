@@ -14,9 +14,9 @@ bool IsVtk(std::string_view start, std::size_t size);
 bool IsVtp(std::string_view start, std::size_t size);
 bool IsGlb(std::string_view start, std::size_t size);
 bool IsOff(std::string_view start, std::size_t size);
-// A file that begins with `solid`, or has the size of a binary STL.
+// A text that begins with `solid` and has facets, or a file with the size of a binary STL.
 bool IsStl(std::string_view start, std::size_t size);
-// A text whose first line that is no comment begins with a keyword of OBJ.
+// A text that begins with a keyword of OBJ and has a vertex.
 bool IsObj(std::string_view start, std::size_t size);
 
 }  // namespace ceres_ed

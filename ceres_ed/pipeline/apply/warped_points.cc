@@ -3,6 +3,7 @@
 #include <ceres_ed/pipeline/fit/carried_points.h>
 #include <ceres_ed/pipeline/fit/named_landmarks.h>
 #include <ceres_ed/pipeline/fit/stray_vertices.h>
+#include <ceres_ed/pipeline/intention.h>
 
 #include <cstddef>
 #include <utility>
@@ -18,7 +19,7 @@ Status ApplyTo(const Warp& warp, const std::string& warp_path, PointCloud* cloud
 }  // namespace
 
 StatusOr<LoadedCloud> LoadFittedSurface(const std::string& path) {
-  StatusOr<LoadedCloud> surface = LoadCloud(path);
+  StatusOr<LoadedCloud> surface = LoadSurface(path);
   if (surface.ok()) LeaveOutStrayVertices(path, &*surface);
   return surface;
 }

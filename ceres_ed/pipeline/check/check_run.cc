@@ -2,12 +2,13 @@
 
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/check/check_files.h>
+#include <ceres_ed/pipeline/intention.h>
 #include <ceres_ed/version.h>
 
 namespace ceres_ed {
 
 Outcome RunCheck(const CheckSettings& settings, CheckObserver* observer) {
-  const StatusOr<LoadedCloud> source = LoadCloud(settings.source);
+  const StatusOr<LoadedCloud> source = LoadSurface(settings.source);
   if (!source.ok()) return Outcome::BadInput(source.status());
   for (const std::string& warning : source->warnings) observer->OnWarning(warning);
   CheckedFile from = {settings.source, &source->cloud, &source->document};
@@ -16,7 +17,7 @@ Outcome RunCheck(const CheckSettings& settings, CheckObserver* observer) {
     observer->OnFindings(CheckFiles(from, to));
     return Outcome::Done();
   }
-  const StatusOr<LoadedCloud> target = LoadCloud(settings.target);
+  const StatusOr<LoadedCloud> target = LoadSurface(settings.target);
   if (!target.ok()) return Outcome::BadInput(target.status());
   for (const std::string& warning : target->warnings) observer->OnWarning(warning);
   to = {settings.target, &target->cloud, &target->document};

@@ -3,6 +3,7 @@
 #include <ceres_ed/io/results/error_cloud.h>
 #include <ceres_ed/pipeline/evaluate/evaluate_run.h>
 #include <ceres_ed/pipeline/evaluate/pair_report.h>
+#include <ceres_ed/pipeline/intention.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/preflight/compare_sizes.h>
@@ -18,7 +19,7 @@ namespace {
 
 Status Load(const std::string& path, PointCloud* cloud) {
   if (path.empty()) return Status::Ok();
-  StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  StatusOr<LoadedCloud> loaded = LoadSurface(path);
   if (loaded.ok()) *cloud = std::move(loaded->cloud);
   return loaded.status();
 }

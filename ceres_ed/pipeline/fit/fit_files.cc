@@ -9,6 +9,7 @@
 #include <ceres_ed/io/warp_io.h>
 #include <ceres_ed/pipeline/check/check_files.h>
 #include <ceres_ed/pipeline/fit/stray_vertices.h>
+#include <ceres_ed/pipeline/intention.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/preflight/repair.h>
 
@@ -119,7 +120,7 @@ void WarnOfSpaces(const FitFiles& files,
 
 // Reads a cloud without its stray vertices, and mends it if `repair`.
 StatusOr<LoadedCloud> LoadInput(const std::string& path, bool repair) {
-  StatusOr<LoadedCloud> loaded = LoadCloud(path);
+  StatusOr<LoadedCloud> loaded = LoadSurface(path);
   if (!loaded.ok()) return loaded;
   LeaveOutStrayVertices(path, &*loaded);
   if (repair) Append(RepairCloud(path, &loaded->cloud), &loaded->warnings);
