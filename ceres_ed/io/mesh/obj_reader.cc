@@ -1,6 +1,6 @@
 // This reader and that of OFF are our own, because no library of Debian 12 keeps the vertices of
 // these formats: assimp splits them at corners and keeps floats, VTK's readers keep floats, and the
-// number parser of tinyobjloader is wrong in the last digits.
+// number parser of tinyobjloader is wrong in the last digits (README.md).
 #include <ceres_ed/io/mesh/face_groups.h>
 #include <ceres_ed/io/mesh/mesh_view.h>
 #include <ceres_ed/io/mesh/obj_file.h>
