@@ -83,6 +83,10 @@ Status CheckOutputNames(const FitSettings& settings) {
   for (const std::string& mesh : {settings.output, settings.graph, settings.covariance}) {
     if (Status status = CheckMeshEnding(mesh); !status.ok()) return status;
   }
+  // Nodes and covariances are points.
+  for (const std::string& points : {settings.graph, settings.covariance}) {
+    if (Status status = CheckHolds(points, PlyDocument()); !status.ok()) return status;
+  }
   const std::string outputs[] = {
       settings.output, settings.warp, settings.graph, settings.report, settings.covariance};
   for (const std::string& one : outputs) {

@@ -23,6 +23,7 @@ namespace {
 constexpr int kMaxDepth = 200;
 
 // Pictures are not needed.
+// NOLINTNEXTLINE(readability-function-size): tinygltf says its parameters.
 bool IgnorePicture(tinygltf::Image* /*image*/,
                    const int /*index*/,
                    std::string* /*error*/,

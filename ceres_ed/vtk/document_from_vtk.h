@@ -4,7 +4,7 @@
 
 #include <ceres_ed/io/mesh/ply_document.h>
 
-class vtkPolyData;
+class vtkPolyData;  // NOLINT(cppcoreguidelines-virtual-class-destructor): it is VTK's
 
 namespace ceres_ed {
 

@@ -61,14 +61,14 @@ vtkSmartPointer<vtkDataArray> MakeArray(const std::string& name,
                                         const Columns& columns,
                                         std::size_t before) {
   const PlyType type = columns.front()->type;
-  const auto array =
-      vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VtkTypeOf(type)));
+  auto array = vtkSmartPointer<vtkDataArray>::Take(vtkDataArray::CreateDataArray(VtkTypeOf(type)));
   array->SetName(name.c_str());
   array->SetNumberOfComponents(static_cast<int>(columns.size()));
   const std::size_t count = columns.front()->values.size();
-  array->SetNumberOfTuples(static_cast<vtkIdType>(before + count));
+  const std::size_t num_rows = before + count;
+  array->SetNumberOfTuples(static_cast<vtkIdType>(num_rows));
   for (std::size_t i = 0; i < columns.size(); ++i) {
-    for (std::size_t row = 0; row < before + count; ++row) {
+    for (std::size_t row = 0; row < num_rows; ++row) {
       array->SetComponent(static_cast<vtkIdType>(row),
                           static_cast<int>(i),
                           row < before ? 0.0 : columns[i]->values[row - before]);

@@ -137,6 +137,33 @@ TEST_F(Formats, WhatAnOutputCannotHoldIsAWarning) {
   EXPECT_THAT(result.err, HasSubstr("label"));
 }
 
+TEST_F(Formats, AnOutputThatCannotHoldTheSourceIsAnErrorBeforeTheFit) {
+  RingOptions options;
+  options.faces = false;
+  WriteBytes(dir_ / "points.ply", RingPly(options));
+  const ProgramResult points = Fit("points.ply", "target.ply", "out.stl");
+  EXPECT_EQ(points.exit_code, 2);
+  EXPECT_THAT(points.err, HasSubstr("out.stl: the format STL holds triangles alone"));
+  const ProgramResult mesh = Fit("source.ply", "target.ply", "out.pcd");
+  EXPECT_EQ(mesh.exit_code, 2);
+  EXPECT_THAT(mesh.err, HasSubstr("out.pcd: the format PCD holds points alone"));
+  const ProgramResult graph = Fit("source.ply", "target.ply", "out.ply", {"--graph=g.stl"});
+  EXPECT_EQ(graph.exit_code, 1);
+  EXPECT_FALSE(Exists("out.pcd"));
+}
+
+TEST_F(Formats, AFileUnderAWrongNameIsReadAsWhatItIsAndSaid) {
+  WriteBytes(dir_ / "renamed.stl", ReadBytes(dir_ / "source.ply"));
+  const ProgramResult result = Fit("renamed.stl", "target.ply", "out.ply");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const std::string sentence =
+      "renamed.stl: the file is named as STL and holds PLY, as which it was read";
+  EXPECT_THAT(result.err, HasSubstr(sentence));
+  const ProgramResult measured =
+      RunProgramFile(AppPath("ed_eval"), {dir_ / "renamed.stl", dir_ / "target.ply"});
+  EXPECT_THAT(measured.err, HasSubstr(sentence));
+}
+
 TEST_F(Formats, AnUnknownEndingIsAUsageErrorBeforeAnyFileIsRead) {
   for (const std::string flag : {"--output=out.xyz", "--graph=g.xyz", "--covariance=c.xyz"}) {
     const ProgramResult result =

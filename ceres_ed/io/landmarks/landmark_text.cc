@@ -165,7 +165,7 @@ Status ParseFcsv(const std::string& path, LandmarkFile* file) {
   Columns columns;
   columns.name = 11;
   columns.position = {1, 2, 3};
-  const Status status = parser.ForEachLine([&](std::string_view line) {
+  Status status = parser.ForEachLine([&](std::string_view line) {
     if (line.front() != '#') return parser.AddPoint(SplitCsv(line), columns);
     if (const auto names = ValueOf(line, "columns"); names.has_value()) {
       AnatomicalSpace ignored = AnatomicalSpace::kUnknown;

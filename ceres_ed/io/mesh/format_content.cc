@@ -23,8 +23,7 @@ std::string_view WithoutByteOrderMark(std::string_view text) {
 // Returns the words of the first line that is neither blank nor a # comment.
 std::vector<std::string_view> FirstWords(std::string_view start) {
   for (const std::string_view line : SplitLines(WithoutByteOrderMark(start), '\n')) {
-    const std::vector<std::string_view> words =
-        SplitWords(line.substr(0, line.find('#')), " \t\r\v\f");
+    std::vector<std::string_view> words = SplitWords(line.substr(0, line.find('#')), " \t\r\v\f");
     if (!words.empty()) return words;
   }
   return {};

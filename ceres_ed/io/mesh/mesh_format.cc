@@ -26,7 +26,7 @@ constexpr std::string_view kNormalsAndColors =
 // Formats are recognised in this order. The first one is used for names without an ending.
 constexpr MeshFormat kFormats[] = {
     {".ply", "PLY", IsPly, ReadPly, WritePly, {true, true, true, "*", "*", "*"}},
-    {".pcd", "PCD", IsPcd, ReadPcd, WritePcd, {true, false, true, "*", "", ""}},
+    {".pcd", "PCD", IsPcd, ReadPcd, WritePcd, {true, false, true, "*", "", "", "", false}},
     {".vtp", "VTP", IsVtp, ReadVtk, WriteVtk, {true, true, true, "*", "*", "edge"}},
     {".vtk", "VTK", IsVtk, ReadVtk, WriteVtk, {true, true, true, "*", "*", "edge"}},
     {".glb", "GLB", IsGlb, ReadGlb, WriteGlb, {false, false, true, "*", "", ""}},

@@ -29,6 +29,8 @@ struct MeshAbilities {
   std::string_view elements;
   // The properties of faces that survive in an ascii file, if these are others.
   std::string_view ascii_face_data;
+  // Faces at all; otherwise a mesh is refused.
+  bool faces = true;
 };
 
 // A row of the table in mesh_format.cc. To add a format, write a file with the functions and add a
@@ -64,6 +66,10 @@ StatusOr<PlyDocument> ReadMesh(const std::string& path);
 // Writes `document` to `path` in the format of its ending; an unknown one is an error. After an
 // error the old file is unchanged. What the format can't represent is lost: LossesOf() tells.
 Status WriteMesh(const std::string& path, const PlyDocument& document);
+
+// Returns an error if a file of that name can't hold the document at all: points as triangles
+// alone, or a mesh as points alone. It is what WriteMesh() would say after a long computation.
+Status CheckHolds(const std::string& path, const PlyDocument& document);
 
 // Returns a sentence, which begins with `path`, for each kind of thing of `document` that a file of
 // that name can't represent: doubles, polygons, the order of vertices, properties, elements.

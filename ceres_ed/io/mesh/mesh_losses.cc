@@ -117,6 +117,24 @@ class Losses {
 
 }  // namespace
 
+Status CheckHolds(const std::string& path, const PlyDocument& document) {
+  const MeshFormat* const format = FindMeshFormat(path);
+  if (format == nullptr) return CheckMeshEnding(path);
+  const PlyElement* const faces = document.Find("face");
+  const bool has_faces = faces != nullptr && faces->count > 0;
+  if (has_faces && !format->abilities.faces) {
+    return Status::Error(path + ": the format " + format->name +
+                         " holds points alone, and the mesh has " + Counted(faces->count, "face") +
+                         ", expected a name that ends in .ply");
+  }
+  if (!has_faces && !format->abilities.has_vertex_list) {
+    return Status::Error(path + ": the format " + format->name +
+                         " holds triangles alone, and there are no faces, expected a name that "
+                         "ends in .ply");
+  }
+  return Status::Ok();
+}
+
 std::vector<std::string> LossesOf(const std::string& path, const PlyDocument& document) {
   const MeshFormat* const format = FindMeshFormat(path);
   // A PLY holds everything.

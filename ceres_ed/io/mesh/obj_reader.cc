@@ -238,6 +238,7 @@ class ObjReader {
       return;
     }
     std::vector<std::array<double, 3>> rows;
+    rows.reserve(normal_of.size());
     for (const int normal : normal_of) {
       rows.push_back(normal == kNone ? std::array<double, 3>{}
                                      : normals_[static_cast<std::size_t>(normal)]);

@@ -17,11 +17,16 @@
 namespace ceres_ed {
 namespace {
 
-Status Load(const std::string& path, PointCloud* cloud) {
+// Warns of what the reader says about the format of the file.
+Status Load(const std::string& path, EvaluateObserver* observer, PointCloud* cloud) {
   if (path.empty()) return Status::Ok();
   StatusOr<LoadedCloud> loaded = LoadSurface(path);
-  if (loaded.ok()) *cloud = std::move(loaded->cloud);
-  return loaded.status();
+  if (!loaded.ok()) return loaded.status();
+  for (const std::string& warning : loaded->document.warnings) {
+    observer->OnWarning(path + ": " + warning);
+  }
+  *cloud = std::move(loaded->cloud);
+  return Status::Ok();
 }
 
 // Compares the covariances in settings.calibration with the errors. What lies within 1 % of the
@@ -61,10 +66,10 @@ Outcome RunEvaluation(const EvalSettings& settings, EvaluateObserver* observer) 
 
 Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer) {
   PointCloud result, target, source, truth_cloud;
-  for (const Status& status : {Load(settings.fitted, &result),
-                               Load(settings.target, &target),
-                               Load(settings.source, &source),
-                               Load(settings.truth, &truth_cloud)}) {
+  for (const Status& status : {Load(settings.fitted, observer, &result),
+                               Load(settings.target, observer, &target),
+                               Load(settings.source, observer, &source),
+                               Load(settings.truth, observer, &truth_cloud)}) {
     if (!status.ok()) return Outcome::BadInput(status);
   }
   for (const auto& [name, cloud] : {std::pair(&settings.target, &target),

@@ -223,6 +223,9 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
     Append(target->warnings, &files.warnings);
     target_document = std::move(target->document);
   }
+  if (Status status = CheckHolds(settings.output, files.source_document); !status.ok()) {
+    return status;
+  }
   Append(LossesOf(settings.output, files.source_document), &files.warnings);
   WarnOfSpaces(files, target_document, &files.warnings);
   files.checks = CheckFiles({settings.source, &files.input.source, &files.source_document},
