@@ -140,6 +140,11 @@ TEST_F(LandmarkFiles, ATableWithTwoPointsARowHasASourceAndATarget) {
       "label,source_x,source_y,source_z,target_x,target_y,target_z\nF,1,2,3,4,5,6\n";
   EXPECT_THAT(Rows(Read("a.csv", text)), ElementsAre("F 1 2 3"));
   EXPECT_THAT(Rows(Read("a.csv", text, LandmarkSide::kTarget)), ElementsAre("F 4 5 6"));
+  // The names of the columns in a comment.
+  const std::string comment = "# by hand, mm; " + text;
+  EXPECT_THAT(Rows(Read("b.csv", comment)), ElementsAre("F 1 2 3"));
+  EXPECT_THAT(Rows(Read("b.csv", comment, LandmarkSide::kTarget)), ElementsAre("F 4 5 6"));
+  EXPECT_THAT(Rows(Read("c.csv", "# x,y,z,name\nname,z,y,x\nF,1,2,3\n")), ElementsAre("F 3 2 1"));
 }
 
 TEST_F(LandmarkFiles, OtherPositionsAreWrittenAndAllElseIsKept) {

@@ -221,12 +221,18 @@ Status ParsePts(const std::string& path, LandmarkFile* file) {
 Status ParseLandmarkCsv(const std::string& path, LandmarkSide side, LandmarkFile* file) {
   LineParser parser(path, file);
   std::optional<Columns> columns;
-  bool has_header = false;
+  bool is_first = true;
   return parser.ForEachLine([&](std::string_view line) {
-    if (line.front() == '#') return Status::Ok();
+    if (line.front() == '#') {
+      // The names of the columns may stand in a comment, behind a sentence that ends in ';'.
+      const std::size_t sentence = line.rfind(';');
+      const std::string_view names =
+          line.substr(sentence == std::string_view::npos ? 1 : sentence + 1);
+      if (is_first) columns = ColumnsOf(HeaderOf(SplitCsv(names)), side, &file->space);
+      return Status::Ok();
+    }
     const Fields fields = SplitCsv(line);
-    if (!columns.has_value() && !has_header) {
-      has_header = true;
+    if (std::exchange(is_first, false)) {
       const bool is_row = std::any_of(fields.begin(), fields.end(), IsNumber);
       if (!is_row) {
         columns = ColumnsOf(HeaderOf(fields), side, &file->space);
@@ -234,6 +240,8 @@ Status ParseLandmarkCsv(const std::string& path, LandmarkSide side, LandmarkFile
         return parser.Error("the header is " + Quoted(line) +
                             ", expected the columns label and x, y, z among others");
       }
+    }
+    if (!columns.has_value()) {
       columns.emplace();
       // Rows of numbers alone have no names.
       const bool is_bare = fields.size() == 3;
