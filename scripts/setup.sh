@@ -51,7 +51,8 @@ add_list() {
       for list in packages pcl vtk gltf video hdf5 docs; do add_list "$list"; done
       # ITK judges displacement fields.
       add libinsighttoolkit5-dev
-      add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy
+      add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy \
+        python3-build python3-pip python3-setuptools python3-venv python3-wheel
       ;;
     lint) add clang-format clang-tidy ;;
     fuzz) add clang libclang-rt-14-dev ;;
