@@ -188,6 +188,8 @@ struct EnergyContext {
   const std::vector<Eigen::Vector3d>* node_prior = nullptr;
   // The t_j of each node one frame ago; null if there was none, as in a fit.
   const std::vector<Eigen::Vector3d>* node_previous = nullptr;
+  // The unit normals of `points` at rest, zero where unknown; null if there are none.
+  const std::vector<Eigen::Vector3d>* normals = nullptr;
   // The triangles over `points`, counter-clockwise as seen from outside; null if there are none.
   const std::vector<std::array<int, 3>>* triangles = nullptr;
 };

@@ -27,6 +27,8 @@ struct StoredPoint {
   bool has_camera = false;
 };
 
+class BatchPointStore;
+
 // The common part of all stores of point functors.
 class PointStore : public ResidualStore {
  public:
@@ -43,6 +45,10 @@ class PointStore : public ResidualStore {
                                 const double* warped,
                                 double* residuals,
                                 double* jacobians) const = 0;
+
+  // Returns this store if its residuals are to be evaluated all at once (batch_store.h), else
+  // null.
+  virtual const BatchPointStore* AsBatch() const { return nullptr; }
 
   void Clear() override {
     ResidualStore::Clear();

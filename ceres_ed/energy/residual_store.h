@@ -49,6 +49,9 @@ class ResidualStore {
  protected:
   ResidualStore(Form form, int num_residuals) : form_(form), num_residuals_(num_residuals) {}
 
+  // For a store whose residuals get their number of values later than the store is made.
+  void SetNumResiduals(int num_residuals) { num_residuals_ = num_residuals; }
+
   // Must be called once for each residual that is added.
   void CountOne() { ++size_; }
 

@@ -1,5 +1,6 @@
 #include "ceres_ed/problem/problem_builder.h"
 
+#include <ceres_ed/problem/point_batches.h>
 #include <ceres_ed/util/describe_throw.h>
 
 #include <algorithm>
@@ -294,6 +295,13 @@ void ProblemBuilder::CheckConfig(const ProblemConfig& config) const {
   }
 }
 
+bool ProblemBuilder::IsBatch(const Term& term) {
+  if (term.residuals.empty()) return false;
+  const ResidualStore* const store = term.residuals.front().store;
+  return store != nullptr && store->form() == ResidualStore::Form::kPoint &&
+         static_cast<const PointStore*>(store)->AsBatch() != nullptr;
+}
+
 TermEnergy ProblemBuilder::Evaluate(const Term& term, const DeformationState& state) const {
   TermEnergy energy;
   energy.label = term.label;
@@ -301,12 +309,27 @@ TermEnergy ProblemBuilder::Evaluate(const Term& term, const DeformationState& st
   std::vector<const double*> pointers;
   std::vector<double> residuals;
   if (!term.status.ok()) energy.weighted = energy.raw = std::numeric_limits<double>::quiet_NaN();
+  PointBatches batches;
+  bool batches_valid = true;
+  if (IsBatch(term)) {
+    std::vector<SelectedResidual> all;
+    for (const Residual& residual : term.residuals) all.push_back(term.Selected(residual));
+    batches.Build(graph_, all);
+    const std::string thrown = DescribeThrow([&] { batches_valid = batches.Evaluate(state); });
+    batches_valid = batches_valid && thrown.empty();
+  }
   for (const Residual& residual : term.residuals) {
     const BlockRef* blocks = &term.blocks[residual.first_block];
     const SelectedResidual selected = term.Selected(residual);
     residuals.assign(selected.num_residuals(), 0.0);
     bool valid = false;
     const std::string thrown = DescribeThrow([&] {
+      if (!batches.empty()) {
+        std::copy_n(
+            batches.Residuals(residual.store, residual.index), residuals.size(), residuals.begin());
+        valid = batches_valid;
+        return;
+      }
       if (residual.store != nullptr) {
         valid = residual.store->Evaluate(residual.index, blocks, graph_, state, residuals.data());
         return;

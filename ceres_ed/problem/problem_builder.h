@@ -152,6 +152,8 @@ class ProblemBuilder {
   class TermSink;
 
   void CheckConfig(const ProblemConfig& config) const;
+  // Returns whether the residuals of a term are evaluated all at once. They all are, or none.
+  static bool IsBatch(const Term& term);
   TermEnergy Evaluate(const Term& term, const DeformationState& state) const;
   Status CheckResidual(const Term& term, int index, const DeformationState& state) const;
 

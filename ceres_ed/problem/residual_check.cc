@@ -1,4 +1,5 @@
 // The part of ProblemBuilder that finds the residual because of which a solver fails.
+#include <ceres_ed/problem/point_batches.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/util/describe_throw.h>
 
@@ -47,6 +48,26 @@ std::string FindFault(const ceres::CostFunction& cost, const std::vector<const d
   return "";
 }
 
+// Returns whether all residuals of batch functions and their derivatives are finite.
+bool IsSound(const DeformationGraph& graph,
+             const std::vector<SelectedResidual>& residuals,
+             const DeformationState& state) {
+  PointBatches batches;
+  batches.Build(graph, residuals);
+  bool valid = false;
+  const std::string thrown = DescribeThrow([&] { valid = batches.Evaluate(state); });
+  if (!valid || !thrown.empty()) return false;
+  return std::all_of(residuals.begin(), residuals.end(), [&](const SelectedResidual& residual) {
+    const int size = residual.num_residuals();
+    return Eigen::Map<const Eigen::VectorXd>(batches.Residuals(residual.store, residual.index),
+                                             size)
+               .allFinite() &&
+           Eigen::Map<const Eigen::VectorXd>(batches.Jacobian(residual.store, residual.index),
+                                             3 * size)
+               .allFinite();
+  });
+}
+
 }  // namespace
 
 Status ProblemBuilder::CheckResidual(const Term& term,
@@ -70,6 +91,12 @@ Status ProblemBuilder::CheckResiduals(const DeformationState& state) const {
   if (Status collected = status(); !collected.ok()) return collected;
   for (const Term& term : terms_) {
     if (term.weight == 0.0) continue;
+    if (IsBatch(term)) {
+      // A batch is looked at residual by residual only if there is something to find.
+      std::vector<SelectedResidual> all;
+      for (const Residual& residual : term.residuals) all.push_back(term.Selected(residual));
+      if (IsSound(graph_, all, state)) continue;
+    }
     for (int i = 0; i < static_cast<int>(term.residuals.size()); ++i) {
       if (Status checked = CheckResidual(term, i, state); !checked.ok()) return checked;
     }

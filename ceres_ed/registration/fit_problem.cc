@@ -86,6 +86,7 @@ TermInputs FitProblem::Inputs() const {
   TermInputs inputs;
   inputs.context.graph = &graph_.graph;
   inputs.context.points = &source_.points;
+  if (source_.HasNormals()) inputs.context.normals = &source_.normals;
   if (source_.HasTriangles()) inputs.context.triangles = &source_.triangles;
   inputs.context.skinning = &graph_.skinning;
   inputs.context.correspondences = &correspondences_;

@@ -1,6 +1,8 @@
 # The public headers of the library: what users include, and what these include in turn. The test
 # install.headers compiles each of them from an installed copy, so that none is missing here.
 set(CERES_ED_PUBLIC_HEADERS
+    ceres_ed/energy/batch_energy.h
+    ceres_ed/energy/batch_store.h
     ceres_ed/energy/block_energy.h
     ceres_ed/energy/custom_energy.h
     ceres_ed/energy/energy.h

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <Eigen/Geometry>
 #include <cost_functions/node_parameters.h>
 
 namespace ceres_ed {
@@ -51,6 +52,20 @@ bool Linearize(const SelectedResidual& selected,
   return true;
 }
 
+// Does the same for a residual that has been evaluated with all others. Its point is the vertex to
+// which it is bound.
+bool LinearizeBatch(const SelectedResidual& selected,
+                    const PointBatches& batches,
+                    Linearized* result) {
+  const int size = selected.num_residuals();
+  result->residual =
+      Eigen::Map<const Eigen::VectorXd>(batches.Residuals(selected.store, selected.index), size);
+  result->jacobians = {Eigen::Map<const RowMajorJacobian>(
+      batches.Jacobian(selected.store, selected.index), size, 3)};
+  result->vertices = {selected.blocks[0].node};
+  return result->residual.allFinite() && result->jacobians[0].allFinite();
+}
+
 }  // namespace
 
 std::unique_ptr<OwnEnergies> OwnEnergies::Create(const UnitFit& fit, const WeldedMesh& mesh) {
@@ -65,6 +80,7 @@ std::unique_ptr<OwnEnergies> OwnEnergies::Create(const UnitFit& fit, const Welde
   EnergyContext context;
   context.graph = &own->graph_;
   context.points = &source.points;
+  if (source.HasNormals()) context.normals = &source.normals;
   if (source.HasTriangles()) context.triangles = &source.triangles;
   context.skinning = &own->skinning_;
   context.correspondences = &own->none_;
@@ -74,8 +90,16 @@ std::unique_ptr<OwnEnergies> OwnEnergies::Create(const UnitFit& fit, const Welde
   own->builder_->Select(FullConfig(own->graph_.num_nodes(), /*has_camera=*/false),
                         &own->residuals_);
   if (own->residuals_.empty()) return nullptr;
+  own->batches_.Build(own->graph_, own->residuals_);
   for (const SelectedResidual& residual : own->residuals_) {
-    own->costs_.push_back(residual.CostFunction(own->graph_));
+    const bool is_batch = own->batches_.Residuals(residual.store, residual.index) != nullptr;
+    own->costs_.push_back(is_batch ? nullptr : residual.CostFunction(own->graph_));
+  }
+  own->mesh_ = &mesh;
+  if (!own->batches_.empty() && !mesh.triangles.empty()) {
+    std::vector<Eigen::Vector3d> at_rest;
+    for (const int point : mesh.point_of_vertex) at_rest.push_back(source.points[point]);
+    own->normals_at_rest_ = WeldedNormals(mesh, at_rest);
   }
   own->weights_ = Eigen::VectorXd::Zero(own->graph_.num_nodes());
   return own;
@@ -99,15 +123,35 @@ void OwnEnergies::AddEnergy(const UnitFit& fit,
   energies_.push_back(*std::move(energy));
 }
 
+void OwnEnergies::TurnNormals(const std::vector<Eigen::Vector3d>& points) {
+  if (normals_at_rest_.empty()) return;
+  const std::vector<Eigen::Vector3d> normals = WeldedNormals(*mesh_, points);
+  for (int v = 0; v < graph_.num_nodes(); ++v) {
+    if (normals[v].isZero(0.0) || normals_at_rest_[v].isZero(0.0)) continue;
+    MutableNodeAffine(state_.node(v)) =
+        Eigen::Quaterniond::FromTwoVectors(normals_at_rest_[v], normals[v]).toRotationMatrix();
+  }
+}
+
 const Eigen::VectorXd& OwnEnergies::Add(const std::vector<Eigen::Vector3d>& points,
                                         Eigen::MatrixXd* gradient) {
   for (int v = 0; v < graph_.num_nodes(); ++v) {
     MutableNodeTranslation(state_.node(v)) = points[v] - graph_.position(v);
   }
+  bool batches_valid = true;
+  if (!batches_.empty()) {
+    TurnNormals(points);
+    const std::string thrown = DescribeThrow([&] { batches_valid = batches_.Evaluate(state_); });
+    batches_valid = batches_valid && thrown.empty();
+  }
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(graph_.num_nodes());
   Linearized linear;
   for (std::size_t i = 0; i < residuals_.size(); ++i) {
-    if (!Linearize(residuals_[i], *costs_[i], state_, &linear)) continue;
+    if (costs_[i] == nullptr) {
+      if (!batches_valid || !LinearizeBatch(residuals_[i], batches_, &linear)) continue;
+    } else if (!Linearize(residuals_[i], *costs_[i], state_, &linear)) {
+      continue;
+    }
     double rho[3] = {0.0, 1.0, 0.0};
     const ceres::LossFunction* const loss = losses_[residuals_[i].term].get();
     if (loss != nullptr) loss->Evaluate(linear.residual.squaredNorm(), rho);

@@ -5,6 +5,7 @@
 #include <ceres_ed/energy/energy.h>
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/geometry/welded_mesh.h>
+#include <ceres_ed/problem/point_batches.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/registration/unit_fit.h>
 
@@ -37,6 +38,9 @@ class OwnEnergies {
  private:
   OwnEnergies() = default;
   void AddEnergy(const UnitFit& fit, const EnergySpec& spec, const EnergyContext& context);
+  // Turns A_j of each vertex as its normal has turned since the start, for functions that look at
+  // normals. The warped points do not depend on A_j.
+  void TurnNormals(const std::vector<Eigen::Vector3d>& points);
 
   // The vertices at rest as nodes, and the binding of the points of the source.
   DeformationGraph graph_;
@@ -49,6 +53,10 @@ class OwnEnergies {
   std::vector<SelectedResidual> residuals_;
   std::vector<std::shared_ptr<const ceres::CostFunction>> costs_;
   std::vector<std::unique_ptr<ceres::LossFunction>> losses_;
+  // The residuals that are evaluated all at once; costs_ has none for them.
+  PointBatches batches_;
+  const WeldedMesh* mesh_ = nullptr;
+  std::vector<Eigen::Vector3d> normals_at_rest_;
   Eigen::VectorXd weights_;
 };
 

@@ -97,6 +97,7 @@ void NormalEquations::AddResiduals(const ProblemBuilder& builder,
                                    const std::vector<SelectedResidual>& residuals) {
   for (int t = 0; t < builder.num_terms(); ++t) losses_.push_back(MakeLoss(builder.loss(t)));
   points_.Build(builder.graph(), residuals);
+  batches_.Build(builder.graph(), residuals);
   for (const SelectedResidual& residual : residuals) {
     const bool has_form = residual.store != nullptr;
     if (has_form && residual.store->form() == ResidualStore::Form::kPoint) continue;

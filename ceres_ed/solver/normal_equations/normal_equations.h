@@ -3,6 +3,7 @@
 #define CERES_ED_SOLVER_NORMAL_EQUATIONS_NORMAL_EQUATIONS_H_
 
 #include <ceres_ed/linear_algebra/block_structure.h>
+#include <ceres_ed/problem/point_batches.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/normal_equations/point_groups.h>
 
@@ -254,6 +255,8 @@ class NormalEquations {
   void WarpGroup(const PointGroup& group,
                  const DeformationState& state,
                  PointScratch* scratch) const;
+  bool EvaluateRun(
+      const PointRun& run, int begin, int count, bool linearize, PointScratch* scratch) const;
   bool AddRun(const PointRun& run,
               bool has_camera,
               bool linearize,
@@ -309,6 +312,8 @@ class NormalEquations {
   std::size_t shared_size_ = 0;
   // This buffer is the reason why one object serves one thread at a time.
   mutable std::vector<double> shared_;
+  // The values of the batch functions at the state that is being evaluated.
+  mutable PointBatches batches_;
   // Used only while building.
   std::vector<SelectedResidual> selected_;
   std::vector<int> block_of_node_;

@@ -79,6 +79,10 @@ bool NormalEquations::EvaluateTasks(const DeformationState& state,
     sums.gradient = gradient->data();
     sums.shared = shared_.data();
   }
+  // Functions are user code, too, and may throw.
+  bool batches_valid = false;
+  const std::string thrown = DescribeThrow([&] { batches_valid = batches_.Evaluate(state); });
+  if (!batches_valid || !thrown.empty()) return false;
   const int num_tasks = static_cast<int>(tasks_.size());
   std::vector<double> costs(num_tasks, 0.0);
   std::atomic<bool> ok{true};

@@ -90,6 +90,25 @@ void NormalEquations::WarpGroup(const PointGroup& group,
   }
 }
 
+// Evaluates some residuals of a run at the points in `scratch->batch`, or takes the values of a
+// batch function, which has been evaluated already.
+bool NormalEquations::EvaluateRun(
+    const PointRun& run, int begin, int count, bool linearize, PointScratch* scratch) const {
+  const int* const indices = points_.indices(run) + begin;
+  double* const jacobians = linearize ? scratch->jacobians.data() : nullptr;
+  if (batches_.empty() || run.store->AsBatch() == nullptr) {
+    return run.store->EvaluateAtPoints(
+        count, indices, scratch->batch, scratch->residuals.data(), jacobians);
+  }
+  const int size = run.store->num_residuals();
+  for (int k = 0; k < count; ++k) {
+    std::copy_n(batches_.Residuals(run.store, indices[k]), size, &scratch->residuals[size * k]);
+    if (!linearize) continue;
+    std::copy_n(batches_.Jacobian(run.store, indices[k]), 3 * size, jacobians + 3 * size * k);
+  }
+  return true;
+}
+
 // Evaluates the residuals of one run at the warped points, and adds their cost, M = D^T D and v =
 // D^T r.
 bool NormalEquations::AddRun(const PointRun& run,
@@ -105,13 +124,7 @@ bool NormalEquations::AddRun(const PointRun& run,
     for (int k = 0; k < count; ++k) {
       std::copy_n(&scratch->in_frame[3 * points[begin + k]], 3, scratch->batch + 3 * k);
     }
-    if (!run.store->EvaluateAtPoints(count,
-                                     points_.indices(run) + begin,
-                                     scratch->batch,
-                                     scratch->residuals.data(),
-                                     jacobians)) {
-      return false;
-    }
+    if (!EvaluateRun(run, begin, count, linearize, scratch)) return false;
     for (int k = 0; k < count; ++k) {
       double* residuals = &scratch->residuals[num_residuals * k];
       double rho[3];
