@@ -5,7 +5,7 @@
 
 The module has an attribute for each row of an Options struct (ceres_ed/util/options.h). The stubs
 repeat them in three places: as attributes, as keywords of the class, and as keywords of the
-function that takes them.
+functions that take them.
 """
 import importlib
 import re
@@ -16,14 +16,16 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 STUB = ROOT / "ceres_ed" / "python" / "ceres_ed" / "_core.pyi"
 COLUMNS = 100
-# A class of options, and the function that takes them as keywords: of a class, or of the module.
-USERS = {"GraphOptions": ("Graph", "build"), "FitOptions": (None, "fit"),
-         "TrackerOptions": ("Tracker", "__init__")}
+# A class of options, and the functions that take them as keywords: of a class, or of the module.
+USERS = {"GraphOptions": [("Graph", "build")],
+         "FitOptions": [(None, "fit"), ("SurfaceFitter", "__init__")],
+         "TrackerOptions": [("Tracker", "__init__")],
+         "SequenceOptions": [(None, "open_sequence")]}
 
 
 def aliases(text):
     """Returns {names of an enum: name of its type} of the types at the top of the stubs."""
-    found = re.findall(r'^(\w+) = Literal\[(.*)\]$', text, re.MULTILINE)
+    found = re.findall(r'^(\w+) = Literal\[([^]]*)\]$', text, re.MULTILINE)
     return {frozenset(re.findall(r'"(\w+)"', names)): alias for alias, names in found}
 
 
@@ -37,6 +39,13 @@ def type_of(kind, name, known):
         return "str"
     names = re.findall(r"'(\w+)'", listed.group(1))
     return known.get(frozenset(names)) or "Literal[" + ", ".join(f'"{n}"' for n in names) + "]"
+
+
+def keyword_types(kind, options):
+    """Returns the types of keywords: a number may also be given by the word for a special value."""
+    return {name: "Threads" if name == "threads" and name in kind.words
+            else f'Union[{value}, Literal["{kind.words[name]}"]]' if name in kind.words else value
+            for name, value in options.items()}
 
 
 def options_of(kind, known):
@@ -76,7 +85,7 @@ def with_keywords(block, function, options, old_names):
 
 def replace_block(text, start, change):
     """Changes the text from `start` up to the next name of the module."""
-    begin = text.index(start)
+    begin = text.index("\n" + start) + 1
     end = re.compile(r"^(?=\S)", re.MULTILINE).search(text, begin + len(start))
     end = end.start() if end else len(text)
     return text[:begin] + change(text[begin:end]) + text[end:]
@@ -85,8 +94,9 @@ def replace_block(text, start, change):
 def refreshed(text, module):
     """Returns the stubs with the options of the module."""
     known = aliases(text)
-    for name, (owner, function) in USERS.items():
+    for name, users in USERS.items():
         options = options_of(getattr(module, name), known)
+        keywords = keyword_types(getattr(module, name), options)
         body = text[text.index(f"class {name}:"):]
         old_names = set(re.findall(r"^    (\w+): ", body[:body.index("    def __init__")],
                                    re.MULTILINE)) | set(options)
@@ -94,12 +104,14 @@ def refreshed(text, module):
         def change_class(block):
             rows = "".join(f"    {option}: {kind}\n" for option, kind in options.items())
             block = re.sub(r"(    names: ClassVar.*\n)(?:    \w+: .*\n)*", r"\g<1>" + rows, block)
-            return with_keywords(block, "__init__", options, old_names)
+            return with_keywords(block, "__init__", keywords, old_names)
 
         text = replace_block(text, f"class {name}:", change_class)
-        start = f"class {owner}:" if owner else f"def {function}("
-        text = replace_block(text, start,
-                             lambda block: with_keywords(block, function, options, old_names))
+        for owner, function in users:
+            start = f"class {owner}:" if owner else f"def {function}("
+            text = replace_block(
+                text, start,
+                lambda block, name=function: with_keywords(block, name, keywords, old_names))
     return text
 
 

@@ -2,6 +2,9 @@
 
 #include <ceres_ed/util/options.h>
 
+#include <algorithm>
+#include <thread>
+
 #include <cost_functions/node_parameters.h>
 
 namespace ceres_ed {
@@ -51,7 +54,9 @@ const OptionTable<GraphOptions>& GraphOptions::Rows() {
       Row(&O::join_pieces, "join_pieces", "Join the pieces of the graph: none stays behind."),
       Row(&O::edges_per_joint, "edges_per_joint", "The edges at each joint of two pieces.")
           .In(AtLeast(1)),
-      Row(&O::num_threads, "threads", "The result does not depend on it.").In(AtLeast(1)),
+      Row(&O::num_threads, "threads", "The result does not depend on it.")
+          .In(AtLeast(1))
+          .Special(0, std::max(1u, std::thread::hardware_concurrency()), "auto"),
       NotData(&O::volume),
       NotData(&O::volume_weight),
       NotData(&O::should_stop),

@@ -57,13 +57,25 @@ py::array View(T* data, std::size_t rows, std::size_t columns, const py::handle&
   return py::array_t<T>({rows, columns}, {columns * sizeof(T), sizeof(T)}, data, owner);
 }
 
-// Return (N, 3) arrays that show the points or triangles of `owner`.
+// Makes an array read-only. It is used for copies, because a value that is written to one would be
+// lost; for results, which would no longer be what was computed; and for the memory of the library,
+// which relies on indices that exist and numbers that are finite.
+inline py::array ReadOnly(py::array array) {
+  array.attr("flags").attr("writeable") = false;
+  return array;
+}
+
+// Return (N, 3) arrays that show the points, triangles or colours of `owner` and cannot be written.
 inline py::array View(std::vector<Eigen::Vector3d>& points, const py::handle& owner) {
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double), "points have gaps");
-  return View(reinterpret_cast<double*>(points.data()), points.size(), 3, owner);
+  return ReadOnly(View(reinterpret_cast<double*>(points.data()), points.size(), 3, owner));
 }
 inline py::array View(std::vector<std::array<int, 3>>& triangles, const py::handle& owner) {
-  return View(reinterpret_cast<int*>(triangles.data()), triangles.size(), 3, owner);
+  return ReadOnly(View(reinterpret_cast<int*>(triangles.data()), triangles.size(), 3, owner));
+}
+inline py::array ColorView(std::vector<std::array<std::uint8_t, 3>>& colors,
+                           const py::handle& owner) {
+  return ReadOnly(View(reinterpret_cast<std::uint8_t*>(colors.data()), colors.size(), 3, owner));
 }
 
 // Does the same, or returns None if there are no rows.
@@ -80,17 +92,10 @@ std::pair<T*, py::capsule> Keep(T value) {
   return {kept, py::capsule(kept, [](void* pointer) { delete static_cast<T*>(pointer); })};
 }
 
-// Returns an (N, 3) array that owns `points`.
+// Returns an (N, 3) array that owns `points` and may be written.
 inline py::array OwnedView(std::vector<Eigen::Vector3d> points) {
   const auto [kept, owner] = Keep(std::move(points));
-  return View(*kept, owner);
-}
-
-// Makes an array read-only. It is used for copies, because a value that is written to one would be
-// lost, and for results, which would no longer be what was computed.
-inline py::array ReadOnly(py::array array) {
-  array.attr("flags").attr("writeable") = false;
-  return array;
+  return View(reinterpret_cast<double*>(kept->data()), kept->size(), 3, owner);
 }
 
 }  // namespace ceres_ed::python

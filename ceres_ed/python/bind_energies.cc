@@ -5,6 +5,7 @@
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/energies.h>
 #include <ceres_ed/python/errors.h>
+#include <ceres_ed/python/pickles.h>
 
 #include <string>
 #include <utility>
@@ -42,17 +43,23 @@ std::string Describe(const EnergySpec& spec) {
   return text + ")";
 }
 
-void Append(const py::handle& energy, std::vector<EnergySpec>* specs) {
+void Append(const py::handle& energy, EnergyArguments* arguments) {
   if (py::isinstance<EnergySpec>(energy)) {
-    specs->push_back(energy.cast<EnergySpec>());
+    arguments->specs.push_back(energy.cast<EnergySpec>());
+    return;
+  }
+  if (py::isinstance<PointEnergy>(energy)) {
+    const auto& function = energy.cast<const PointEnergy&>();
+    RegisterFunction(function, arguments->errors, &arguments->registry);
+    arguments->specs.push_back(function.spec);
     return;
   }
   if (!py::isinstance<py::str>(energy)) {
     throw py::type_error("an energy is " + std::string(py::str(py::type::of(energy))) +
-                         ", expected an Energy or a str");
+                         ", expected an Energy, a PointEnergy or a str");
   }
   for (EnergySpec& spec : ValueOrThrow(ParseEnergySpecs(energy.cast<std::string>()))) {
-    specs->push_back(std::move(spec));
+    arguments->specs.push_back(std::move(spec));
   }
 }
 
@@ -107,15 +114,18 @@ void BindInfo(py::module_& module) {
 
 }  // namespace
 
-std::vector<EnergySpec> ToEnergies(const py::object& energies) {
-  std::vector<EnergySpec> specs;
-  if (energies.is_none()) return specs;
-  if (py::isinstance<py::str>(energies) || py::isinstance<EnergySpec>(energies)) {
-    Append(energies, &specs);
+EnergyArguments ToEnergies(const py::object& energies, const py::object& plugins) {
+  EnergyArguments arguments;
+  arguments.registry = MakeRegistry(plugins);
+  if (energies.is_none()) return arguments;
+  const bool is_one = py::isinstance<py::str>(energies) || py::isinstance<EnergySpec>(energies) ||
+                      py::isinstance<PointEnergy>(energies);
+  if (is_one) {
+    Append(energies, &arguments);
   } else {
-    for (const py::handle energy : energies) Append(energy, &specs);
+    for (const py::handle energy : energies) Append(energy, &arguments);
   }
-  return specs;
+  return arguments;
 }
 
 EnergyRegistry MakeRegistry(const py::object& plugins) {
@@ -133,7 +143,8 @@ EnergyRegistry MakeRegistry(const py::object& plugins) {
 
 void BindEnergies(py::module_& module) {
   const EnergySpec defaults;
-  py::class_<EnergySpec>(module, "Energy", "An energy that is added to an objective.")
+  py::class_<EnergySpec> energy(module, "Energy", "An energy that is added to an objective.");
+  energy
       .def(py::init(&MakeEnergy),
            py::arg("name"),
            py::arg("weight") = defaults.weight,
@@ -156,6 +167,7 @@ Args:
       .def_readonly(
           "parameters", &EnergySpec::parameters, "The parameters that were given, by name.")
       .def("__repr__", &Describe);
+  AddPickle(&energy);
   BindInfo(module);
   module.def(
       "list_energies",

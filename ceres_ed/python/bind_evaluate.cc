@@ -1,10 +1,16 @@
 // Binds the evaluation of a fit.
 #include <ceres_ed/evaluation/pair_evaluation.h>
+#include <ceres_ed/pipeline/evaluate/evaluate_run.h>
+#include <ceres_ed/pipeline/evaluate/pair_report.h>
+#include <ceres_ed/pipeline/evaluate/sequence_report.h>
 #include <ceres_ed/python/bindings.h>
+#include <ceres_ed/python/callbacks.h>
 #include <ceres_ed/python/errors.h>
 #include <ceres_ed/python/surfaces.h>
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include <pybind11/stl.h>
 
@@ -31,6 +37,42 @@ Evaluation EvaluateSurfaces(const py::object& result_object,
     return Evaluate(*result, *target, from, truth ? &**truth : nullptr);
   };
   return ValueOrThrow(evaluate());
+}
+
+py::object ToDict(const nlohmann::ordered_json& report) {
+  return py::module_::import("json").attr("loads")(report.dump());
+}
+
+// Keeps the figures of a sequence; Ctrl-C ends the evaluation.
+class SequenceObserver final : public EvaluateObserver {
+ public:
+  explicit SequenceObserver(Callbacks* callbacks) : callbacks_(callbacks) {}
+  void OnWarning(const std::string& sentence) override { warnings.push_back(sentence); }
+  bool ShouldStop() override { return callbacks_->ShouldStop(); }
+  void OnSequence(const SequenceFigures& figures) override { report = SequenceReport(figures); }
+
+  nlohmann::ordered_json report;
+  std::vector<std::string> warnings;
+
+ private:
+  Callbacks* callbacks_;
+};
+
+py::object EvaluateSequenceFiles(const py::object& sequence, const py::object& result) {
+  EvalSettings settings;
+  settings.sequence = ToPath(sequence);
+  settings.result = ToPath(result);
+  Callbacks callbacks{py::none()};
+  SequenceObserver observer(&callbacks);
+  const auto evaluate = [&] {
+    const py::gil_scoped_release release;
+    return RunEvaluation(settings, &observer);
+  };
+  const Outcome outcome = evaluate();
+  callbacks.Rethrow();
+  if (!outcome.done()) throw py::value_error(outcome.message);
+  observer.report["warnings"] = observer.warnings;
+  return ToDict(observer.report);
 }
 
 void BindStatistics(py::module_& module) {
@@ -60,9 +102,12 @@ void BindStatistics(py::module_& module) {
       .def_readonly("edge_p99", &C::edge_p99)
       .def_readonly("edges", &C::edges, "The number of edges.")
       .def_readonly("flipped", &C::flipped, "The number of triangles that turned over.")
-      .def_readonly("degenerate",
-                    &C::degenerate,
-                    "The number of triangles with less than 5 % of their area.");
+      .def_readonly(
+          "degenerate", &C::degenerate, "The number of triangles with less than 5 % of their area.")
+      .def("__repr__", [](const C& self) {
+        return "<ceres_ed.ShapeChange of " + std::to_string(self.edges) + " edges: mean " +
+               std::to_string(self.edge_mean) + ", " + std::to_string(self.flipped) + " flipped>";
+      });
 }
 
 }  // namespace
@@ -95,7 +140,25 @@ void BindEvaluate(py::module_& module) {
       .def_readonly("truth",
                     &E::truth,
                     "Distances from the points to their true positions; None without a truth.")
-      .def_readonly("shape", &E::shape, "The change of the mesh; None without a source.");
+      .def_readonly("shape", &E::shape, "The change of the mesh; None without a source.")
+      .def(
+          "as_dict",
+          [](const E& self) { return ToDict(EvaluationReport(self)); },
+          "Returns all figures as a dict, as in the report of ed_eval.")
+      .def("__repr__", [](const E& self) {
+        return "<ceres_ed.Evaluation: mean " + std::to_string(self.symmetric.mean) + ", p95 " +
+               std::to_string(self.symmetric.p95) + ">";
+      });
+  module.def("evaluate_sequence",
+             &EvaluateSequenceFiles,
+             py::arg("sequence"),
+             py::arg("result"),
+             R"(Returns what ed_eval measures on the result of ed_slam, as a dict.
+
+`sequence` is the folder of the sequence, `result` that of the result (ed_slam --output). The
+entries are those of the report of ed_eval: truth, camera, depth, tracks_2d and log, each None
+where the sequence has nothing to compare with, and warnings. Lengths are in metres. Raises a
+ValueError that names the file that can't be used.)");
   module.def("evaluate",
              &EvaluateSurfaces,
              py::arg("result"),

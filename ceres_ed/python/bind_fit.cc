@@ -1,19 +1,17 @@
 // Binds fit() and its result.
-#include <ceres_ed/geometry/bounding_box.h>
-#include <ceres_ed/pipeline/check/check_files.h>
-#include <ceres_ed/pipeline/fit/fit_run.h>
-#include <ceres_ed/pipeline/fit/fit_verdict.h>
 #include <ceres_ed/python/arrays.h>
 #include <ceres_ed/python/bindings.h>
-#include <ceres_ed/python/callbacks.h>
-#include <ceres_ed/python/energies.h>
-#include <ceres_ed/python/errors.h>
+#include <ceres_ed/python/fits.h>
 #include <ceres_ed/python/graphs.h>
 #include <ceres_ed/python/memory.h>
 #include <ceres_ed/python/options.h>
+#include <ceres_ed/python/pickles.h>
 #include <ceres_ed/python/surfaces.h>
 #include <ceres_ed/registration/fit.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include <pybind11/stl.h>
@@ -21,64 +19,24 @@
 namespace ceres_ed::python {
 namespace {
 
-// Returns landmarks from {source point: (x, y, z)} or from a pair (source points, positions).
-std::vector<Landmark> ToLandmarks(const py::object& object) {
-  std::vector<Landmark> landmarks;
-  if (object.is_none()) return landmarks;
-  py::object indices, positions;
-  if (py::isinstance<py::dict>(object)) {
-    indices = py::list(object.attr("keys")());
-    positions = py::list(object.attr("values")());
-  } else if (py::isinstance<py::tuple>(object) && py::len(object) == 2) {
-    indices = py::tuple(object)[0];
-    positions = py::tuple(object)[1];
-  } else {
-    throw py::type_error(
-        "landmarks: expected {source point: (x, y, z)} or a pair "
-        "(source points (N,), positions (N, 3))");
-  }
-  const std::vector<int> points = ToIndices(indices, "landmarks' source points");
-  if (points.empty()) return landmarks;
-  const std::vector<Eigen::Vector3d> places = ToPoints(positions, "landmarks' positions");
-  if (places.size() != points.size()) {
-    throw py::value_error("landmarks: " + std::to_string(points.size()) + " source points and " +
-                          std::to_string(places.size()) + " positions, expected equal numbers");
-  }
-  for (std::size_t i = 0; i < points.size(); ++i) landmarks.push_back({points[i], places[i]});
-  return landmarks;
-}
-
-// The files from which source and target were read; null for arrays.
-struct Documents {
-  const PlyDocument* source = nullptr;
-  const PlyDocument* target = nullptr;
-};
-
-// Looks at the inputs, fits, and judges the result.
+// Fits, looks at the inputs, and judges the result.
 StatusOr<FitResult> FitWithoutLock(const Documents& documents,
                                    FitOptions options,
-                                   const EnergyRegistry& registry,
+                                   const EnergyArguments& energies,
                                    const py::object& progress,
                                    Callbacks* callbacks,
                                    FittedSurface* fitted) {
-  options.should_stop = [callbacks] { return callbacks->ShouldStop(); };
+  options.should_stop = [callbacks, errors = energies.errors.get()] {
+    return errors->failed() || callbacks->ShouldStop();
+  };
   if (!progress.is_none()) {
     options.on_progress = [callbacks, &progress](const FitProgress& state) {
       callbacks->Call([&] { progress(state); });
     };
   }
   const py::gil_scoped_release release;
-  const FitInput& input = fitted->input;
-  StatusOr<FitResult> result = Fit(input, options, registry);
-  if (!result.ok()) return result;
-  const double source_diagonal = Diagonal(input.source.points);
-  const double target_diagonal = input.target.empty() ? 0.0 : Diagonal(input.target.points);
-  fitted->checks =
-      CheckFiles({"source", &input.source, documents.source},
-                 {input.target.empty() ? "" : "target", &input.target, documents.target},
-                 options.should_stop);
-  fitted->verdict =
-      JudgeFit({&*result, source_diagonal, target_diagonal, MeasureLandmarks(input, *result).rms});
+  StatusOr<FitResult> result = Fit(fitted->input, options, energies.registry);
+  Judge(documents, options.should_stop, result, fitted);
   return result;
 }
 
@@ -95,29 +53,30 @@ std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
                                            const py::kwargs& changes) {
   auto fitted = std::make_unique<FittedSurface>();
   FitInput& input = fitted->input;
+  SurfaceArgument surface(source, "source");
+  fitted->colors = surface.colors();
   Documents documents;
-  const auto take = [](const py::object& object, const char* what, const PlyDocument** document) {
-    SurfaceArgument surface(object, what);
-    *document = surface.document();
-    return std::move(surface).Take();
-  };
-  input.source = take(source, "source", &documents.source);
-  if (!target.is_none()) input.target = take(target, "target", &documents.target);
+  documents.source = surface.document();
+  input.source = std::move(surface).Take();
+  std::optional<SurfaceArgument> target_surface;
+  if (!target.is_none()) {
+    target_surface.emplace(target, "target");
+    documents.target = target_surface->document();
+    input.target = std::move(*target_surface).Take();
+  }
   input.landmarks = ToLandmarks(landmarks);
   if (!fixed.is_none()) input.fixed_points = ToIndices(fixed, "fixed");
   FitOptions changed = options != nullptr ? *options : FitOptions();
   OptionsClass<FitOptions>::Apply("fit", changes, &changed);
-  changed.extra_energies = ToEnergies(energies);
-  const EnergyRegistry registry = MakeRegistry(plugin);
+  const EnergyArguments added = ToEnergies(energies, plugin);
+  changed.extra_energies = added.specs;
   ExpectLargeBlocks();
   Callbacks callbacks(should_stop);
   StatusOr<FitResult> result =
-      FitWithoutLock(documents, changed, registry, progress, &callbacks, fitted.get());
+      FitWithoutLock(documents, changed, added, progress, &callbacks, fitted.get());
+  added.errors->Rethrow();
   callbacks.Rethrow();
-  fitted->result = ValueOrThrow(std::move(result));
-  if (!fitted->result.IsUsable()) throw std::runtime_error(fitted->result.message);
-  // The target is not needed any more.
-  input.target = PointCloud();
+  Conclude(std::move(result), fitted.get());
   return fitted;
 }
 
@@ -175,7 +134,7 @@ void BindArrays(ResultClass* result) {
       ->def_property_readonly(
           "points",
           [](const py::object& self) {
-            return ReadOnly(View(self.cast<FittedSurface&>().result.points, self));
+            return View(self.cast<FittedSurface&>().result.points, self);
           },
           "The deformed source in the target's frame and unit, (N, 3) float64; a view that "
           "cannot be written.")
@@ -184,7 +143,7 @@ void BindArrays(ResultClass* result) {
           [](const py::object& self) -> py::object {
             std::vector<Eigen::Vector3d>& normals = self.cast<FittedSurface&>().result.normals;
             if (normals.empty()) return py::none();
-            return ReadOnly(View(normals, self));
+            return View(normals, self);
           },
           "The normals of the deformed source, (N, 3) float64; a view. None if it has none.")
       .def_property_readonly(
@@ -203,10 +162,10 @@ void BindArrays(ResultClass* result) {
             std::vector<Eigen::Matrix3d>& covariances =
                 self.cast<FittedSurface&>().result.uncertainty.covariances;
             if (covariances.empty()) return py::none();
-            return py::array_t<double>(
+            return ReadOnly(py::array_t<double>(
                 {static_cast<py::ssize_t>(covariances.size()), py::ssize_t{3}, py::ssize_t{3}},
                 covariances.front().data(),
-                self);
+                self));
           },
           "The covariance of each point in the target's squared unit, (N, 3, 3) float64; a view. "
           "NaN if nothing determines it. None without covariance=True.")
@@ -216,6 +175,20 @@ void BindArrays(ResultClass* result) {
             return ViewOrNone(self.cast<FittedSurface&>().input.source.triangles, self);
           },
           "The triangles of the source, (M, 3) int32; a view. None for bare points.")
+      .def_property_readonly(
+          "source_points",
+          [](const py::object& self) {
+            return View(self.cast<FittedSurface&>().input.source.points, self);
+          },
+          "The points of the source before the fit, (N, 3) float64; a view.")
+      .def_property_readonly(
+          "colors",
+          [](const py::object& self) -> py::object {
+            Colors& colors = self.cast<FittedSurface&>().colors;
+            if (colors.empty()) return py::none();
+            return ColorView(colors, self);
+          },
+          "Red, green and blue of the source, (N, 3) uint8; a view. None if it has none.")
       .def_property_readonly(
           "warp",
           [](FittedSurface& self) -> Warp& { return self.result.warp; },
@@ -313,6 +286,7 @@ void BindCourse(ResultClass* result) {
       "The number of faces that were folded over and have been laid flat.");
   AddNumber(
       result, "warnings", [](const R& r) { return r.warnings; }, "The warnings, a sentence each.");
+  result->def_property_readonly("times", &Times, "The seconds of each stage.");
   result->def_readonly("verdict",
                        &FittedSurface::verdict,
                        "The Verdict: whether the result can be trusted, and why.");
@@ -320,7 +294,6 @@ void BindCourse(ResultClass* result) {
       "checks",
       [](const FittedSurface& self) { return self.checks; },
       "What is wrong with the inputs, a Finding for each fault.");
-  result->def_property_readonly("times", &Times, "The seconds of each stage.");
   result->def("__len__", [](const FittedSurface& self) { return self.result.points.size(); });
   result->def("__repr__", [](const FittedSurface& self) {
     return "<ceres_ed.FitResult of " + std::to_string(self.result.points.size()) + " points, " +
@@ -339,7 +312,11 @@ void BindProgress(py::module_& module) {
           "rms_plane",
           &FitProgress::rms_plane,
           "The root mean square point-to-plane distance of the inliers, in the target's unit.")
-      .def_readonly("energy", &FitProgress::energy, "The objective, without unit.");
+      .def_readonly("energy", &FitProgress::energy, "The objective, without unit.")
+      .def("__repr__", [](const FitProgress& self) {
+        return "<ceres_ed.FitProgress " + self.stage + ": " +
+               std::to_string(static_cast<int>(100.0 * self.fraction)) + " %>";
+      });
 }
 
 }  // namespace
@@ -352,6 +329,7 @@ Arrays of points are views of the result's own memory and keep it alive.)");
   BindArrays(&result);
   BindNumbers(&result);
   BindCourse(&result);
+  AddPickle(&result);
   module.def("fit",
              &FitSurfaces,
              py::arg("source"),
@@ -376,7 +354,7 @@ Args:
     pair (source points (N,), positions (N, 3)).
   fixed: (N,) source points that do not move. If there are any, there is no rigid motion.
   energies: additional energies: a str as in ed_fit --energy ('floor:weight=1e4,height=-0.1;...'),
-    an Energy, or a list of both.
+    an Energy, a PointEnergy (a function of Python), or a list of these.
   plugin: the path of a shared object with more energies, or a list of paths.
   options: a FitOptions. Its options may also be given as keywords, which take precedence.
   progress: a function that is called with a FitProgress after each round.

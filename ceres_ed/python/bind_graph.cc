@@ -5,6 +5,7 @@
 #include <ceres_ed/python/errors.h>
 #include <ceres_ed/python/graphs.h>
 #include <ceres_ed/python/options.h>
+#include <ceres_ed/python/pickles.h>
 #include <ceres_ed/python/surfaces.h>
 
 #include <algorithm>
@@ -113,9 +114,11 @@ BindingOptions ToBinding(int neighbors, const std::string& distance) {
 void BindGraph(py::module_& module) {
   const OptionsClass<GraphOptions> options(
       module, "GraphOptions", "The options of a graph. Lengths are in the unit of the surface.");
-  py::class_<Graph>(module, "Graph", R"(The nodes of a deformation graph and the edges between them.
+  py::class_<Graph> graph(
+      module, "Graph", R"(The nodes of a deformation graph and the edges between them.
 
-Arrays are read-only copies, because the library does not keep the nodes in one piece of memory.)")
+Arrays are read-only copies, because the library does not keep the nodes in one piece of memory.)");
+  graph
       .def(py::init(&MakeGraph),
            py::arg("nodes"),
            py::arg("edges") = py::none(),
@@ -156,6 +159,7 @@ ValueError for a bad option, and for a surface without points or extent.)")
         return "<ceres_ed.Graph of " + std::to_string(self.graph.num_nodes()) + " nodes, " +
                std::to_string(self.graph.num_edges()) + " edges>";
       });
+  AddPickle(&graph);
 }
 
 }  // namespace ceres_ed::python

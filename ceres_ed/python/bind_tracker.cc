@@ -120,7 +120,7 @@ template <typename T>
 auto Column(std::vector<T> MapSnapshot::*column) {
   return [column](const py::object& self) {
     std::vector<T>& values = self.cast<MapSnapshot&>().*column;
-    return py::array_t<T>({values.size()}, {sizeof(T)}, values.data(), self);
+    return ReadOnly(py::array_t<T>({values.size()}, {sizeof(T)}, values.data(), self));
   };
 }
 
@@ -141,7 +141,7 @@ All arrays have one row for each point and are views of the snapshot's memory.)"
           "colors",
           [](const py::object& self) {
             std::vector<std::array<std::uint8_t, 3>>& colors = self.cast<S&>().colors;
-            return View(reinterpret_cast<std::uint8_t*>(colors.data()), colors.size(), 3, self);
+            return ColorView(colors, self);
           },
           "Red, green and blue, (N, 3) uint8.")
       .def_property_readonly(
@@ -157,7 +157,10 @@ All arrays have one row for each point and are views of the snapshot's memory.)"
       .def_property_readonly("last_seen",
                              Column(&S::last_seen),
                              "The last frames in which the camera saw the points, (N,) int32.")
-      .def("__len__", [](const S& self) { return self.points.size(); });
+      .def("__len__", [](const S& self) { return self.points.size(); })
+      .def("__repr__", [](const S& self) {
+        return "<ceres_ed.MapSnapshot of " + std::to_string(self.points.size()) + " points>";
+      });
 }
 
 // What a tracker tells of its map.
@@ -203,7 +206,10 @@ Nodes out of view that lazy Level II has not moved yet are moved first.)")
           "point_relevant",
           &Tracker::PointRelevant,
           "(nodes,) bool: whether the node had data in the last tracked frame, or was added in it.")
-      .def("__len__", &Tracker::NumPoints, "Returns the number of points of the map.");
+      .def("__len__", &Tracker::NumPoints, "Returns the number of points of the map.")
+      .def("__repr__", [](const Tracker& self) {
+        return "<ceres_ed.Tracker with a map of " + std::to_string(self.NumPoints()) + " points>";
+      });
 }
 
 void BindTrackerClass(py::module_& module) {

@@ -6,6 +6,8 @@
 #include <ceres_ed/python/bindings.h>
 #include <ceres_ed/python/errors.h>
 #include <ceres_ed/python/graphs.h>
+#include <ceres_ed/python/options.h>
+#include <ceres_ed/python/pickles.h>
 #include <ceres_ed/python/surfaces.h>
 
 #include <utility>
@@ -70,15 +72,23 @@ void SetTranslation(Warp& warp, const py::object& object) {
   }
 }
 
+// Returns the number of threads, which has the words and messages of the option.
+int ToThreads(const py::object& threads) {
+  GraphOptions options;
+  py::cast(&options, py::return_value_policy::reference).attr("threads") = threads;
+  std::string error;
+  if (!options.IsValid(&error)) throw py::value_error(error);
+  return options.num_threads;
+}
+
 py::object Apply(const Warp& warp,
                  const py::object& points,
                  const py::object& normals,
-                 int threads) {
+                 const py::object& threads_object) {
   PointCloud cloud = SurfaceArgument(points, "points").Take();
   cloud.normals.clear();
   if (!normals.is_none()) cloud.normals = ToNormals(normals, cloud.size(), "normals");
-  if (threads < 1)
-    throw py::value_error("threads is " + std::to_string(threads) + ", expected >= 1");
+  const int threads = ToThreads(threads_object);
   const auto apply = [&] {
     const py::gil_scoped_release release;
     if (warp.repaired) RepairCloud("points", &cloud);
@@ -103,50 +113,9 @@ Graph GraphOf(const Warp& warp) {
   return graph;
 }
 
-}  // namespace
-
-void BindWarp(py::module_& module) {
-  py::class_<Warp>(module, "Warp", R"(A deformation, complete enough to be applied to any cloud:
-
-  v~ = s R (sum_j w_j(v) [A_j (v - g_j) + g_j + t_j] + f(v)) + T
-
-Here s, R, T are target_from_source, and f is the displacement that the finish of a fit adds. Arrays
-of nodes are read-only copies. To change one, assign a new array:
-`warp.translation = warp.translation + [0, 0, 1]`.)")
-      .def(py::init(&MakeWarp),
-           py::arg("graph"),
-           py::kw_only(),
-           py::arg("neighbors") = py::none(),
-           py::arg("distance") = py::none(),
-           R"(Makes a warp that leaves all nodes of `graph` at rest.
-
-`neighbors` (1 to 8) and `distance` ('surface' or 'euclidean') say how points are bound to nodes.
-None means the values with which the graph was built.)")
-      .def_static("load",
-                  &LoadWarp,
-                  py::arg("path"),
-                  R"(Returns the warp in a file that save() or ed_fit --warp has written.
-
-Raises an OSError if the file can't be read, and a ValueError that names the field if it is not
-such a file.)")
-      .def(
-          "save",
-          [](const Warp& self, const py::object& path) {
-            ThrowUnlessWritten(WriteWarp(ToPath(path), self));
-          },
-          py::arg("path"),
-          "Writes a JSON file for load() and ed_apply, completely or not at all. Numbers are read "
-          "back with the same bits.")
-      .def("apply",
-           &Apply,
-           py::arg("points"),
-           py::arg("normals") = py::none(),
-           py::kw_only(),
-           py::arg("threads") = 1,
-           R"(Returns points of the source's frame, deformed, in the target's frame, (N, 3).
-
-`points` is any surface. If it has triangles and `distance` is 'surface', distances to nodes are
-measured along the triangles. With `normals` (N, 3) it returns a pair (points, normals).)")
+// The parts of which a warp is made.
+void BindParts(py::class_<Warp>* warp) {
+  (*warp)
       .def_property_readonly("graph", &GraphOf, "The Graph, in the source's frame and unit.")
       .def_property_readonly(
           "nodes",
@@ -179,12 +148,62 @@ measured along the triangles. With `normals` (N, 3) it returns a pair (points, n
           [](const py::object& self) {
             return ViewOrNone(self.cast<Warp&>().finish.displacements, self);
           },
-          "f at these points, (P, 3), in the source's unit; a view. None without a finish.")
+          "f at these points, (P, 3), in the source's unit; a view. None without a finish.");
+}
+
+}  // namespace
+
+void BindWarp(py::module_& module) {
+  py::class_<Warp> warp(
+      module, "Warp", R"(A deformation, complete enough to be applied to any cloud:
+
+  v~ = s R (sum_j w_j(v) [A_j (v - g_j) + g_j + t_j] + f(v)) + T
+
+Here s, R, T are target_from_source, and f is the displacement that the finish of a fit adds. Arrays
+of nodes are read-only copies. To change one, assign a new array:
+`warp.translation = warp.translation + [0, 0, 1]`.)");
+  warp.def(py::init(&MakeWarp),
+           py::arg("graph"),
+           py::kw_only(),
+           py::arg("neighbors") = py::none(),
+           py::arg("distance") = py::none(),
+           R"(Makes a warp that leaves all nodes of `graph` at rest.
+
+`neighbors` (1 to 8) and `distance` ('surface' or 'euclidean') say how points are bound to nodes.
+None means the values with which the graph was built.)")
+      .def_static("load",
+                  &LoadWarp,
+                  py::arg("path"),
+                  R"(Returns the warp in a file that save() or ed_fit --warp has written.
+
+Raises an OSError if the file can't be read, and a ValueError that names the field if it is not
+such a file.)")
+      .def(
+          "save",
+          [](const Warp& self, const py::object& path) {
+            ThrowUnlessWritten(WriteWarp(ToPath(path), self));
+          },
+          py::arg("path"),
+          "Writes a JSON file for load() and ed_apply, completely or not at all. Numbers are read "
+          "back with the same bits.")
+      .def("apply",
+           &Apply,
+           py::arg("points"),
+           py::arg("normals") = py::none(),
+           py::kw_only(),
+           py::arg("threads") = py::int_(1),
+           R"(Returns points of the source's frame, deformed, in the target's frame, (N, 3).
+
+`points` is any surface. If it has triangles and `distance` is 'surface', distances to nodes are
+measured along the triangles. With `normals` (N, 3) it returns a pair (points, normals). `threads`
+is a number, or 'auto' for all of the machine.)")
       .def("__len__", [](const Warp& self) { return self.graph.num_nodes(); })
       .def("__repr__", [](const Warp& self) {
         return "<ceres_ed.Warp of " + std::to_string(self.graph.num_nodes()) + " nodes" +
                (self.finish.empty() ? ">" : " and a finish>");
       });
+  BindParts(&warp);
+  AddPickle(&warp);
 }
 
 }  // namespace ceres_ed::python

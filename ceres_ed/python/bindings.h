@@ -8,12 +8,15 @@ namespace ceres_ed::python {
 
 void BindCloud(pybind11::module_& module);
 void BindEnergies(pybind11::module_& module);
+void BindPointEnergy(pybind11::module_& module);
 void BindGraph(pybind11::module_& module);
 void BindWarp(pybind11::module_& module);
 void BindFitOptions(pybind11::module_& module);
 void BindVerdict(pybind11::module_& module);
 void BindFit(pybind11::module_& module);
+void BindFitter(pybind11::module_& module);
 void BindEvaluate(pybind11::module_& module);
+void BindSequence(pybind11::module_& module);
 void BindTrackerOptions(pybind11::module_& module);
 void BindTracker(pybind11::module_& module);
 

@@ -13,13 +13,16 @@ PYBIND11_MODULE(_core, module) {
   // A class is bound before the functions that take or return it, so that their docstrings name it.
   ceres_ed::python::BindCloud(module);
   ceres_ed::python::BindEnergies(module);
+  ceres_ed::python::BindPointEnergy(module);
   ceres_ed::python::BindGraph(module);
   ceres_ed::python::BindWarp(module);
   ceres_ed::python::BindFitOptions(module);
   ceres_ed::python::BindVerdict(module);
   ceres_ed::python::BindFit(module);
+  ceres_ed::python::BindFitter(module);
   ceres_ed::python::BindEvaluate(module);
   ceres_ed::python::BindTracker(module);
+  ceres_ed::python::BindSequence(module);
   module.def(
       "backend",
       [] {

@@ -38,15 +38,24 @@ class OptionsClass {
       return name + "(" + text + ")";
     });
     class_.def("__copy__", [](const Options& self) { return self; });
+    class_.def(py::pickle(&StateOf, [name = name_](const py::dict& state) {
+      Options options;
+      Apply(name, py::kwargs(py::reinterpret_borrow<py::kwargs>(state)), &options);
+      return options;
+    }));
     class_.def(
         "copy", [](const Options& self) { return self; }, "Returns a copy.");
     py::list names;
+    py::dict words;
     for (const Row& row : Options::Rows()) {
       if (row.option.group == OptionGroup::kInternal) continue;
       AddAttribute(row);
       names.append(row.option.name);
+      for (const SpecialValue& special : row.option.specials)
+        words[py::str(row.option.name)] = WordOf(special);
     }
     class_.attr("names") = py::tuple(names);
+    class_.attr("words") = words;
   }
 
   // Sets the options that `changes` names. Raises a TypeError that lists the known options for
@@ -68,6 +77,57 @@ class OptionsClass {
  private:
   using Row = typename OptionTable<Options>::OneRow;
 
+  // Returns all options by name.
+  static py::dict StateOf(const py::object& self) {
+    py::dict state;
+    for (const py::handle name : self.attr("names")) state[name] = self.attr(name);
+    return state;
+  }
+
+  // The word for a special value, without what is said about it.
+  static std::string WordOf(const SpecialValue& special) {
+    return special.word.substr(0, special.word.find(':'));
+  }
+
+  // Returns the value of an option. A number may also be given by the word for a special value and,
+  // as on the command line, by the number that stands for it (0 threads are all of the machine).
+  template <typename Value>
+  static Value ToValue(const Row& row, const py::object& object) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      // Anything is true or false in Python, also 'no'.
+      if (py::isinstance<py::str>(object)) ThrowWrongType(row, object);
+    }
+    for (const SpecialValue& special : row.option.specials) {
+      const bool is_word =
+          py::isinstance<py::str>(object) && object.cast<std::string>() == WordOf(special);
+      if constexpr (std::is_arithmetic_v<Value>) {
+        if (is_word) return static_cast<Value>(special.value);
+      }
+    }
+    try {
+      auto value = object.cast<Value>();
+      if constexpr (std::is_arithmetic_v<Value>) {
+        for (const SpecialValue& special : row.option.specials) {
+          if (static_cast<double>(value) != special.on_flag) continue;
+          return static_cast<Value>(special.value);
+        }
+      }
+      return value;
+    } catch (const py::cast_error&) {
+      ThrowWrongType(row, object);
+    }
+  }
+
+  [[noreturn]] static void ThrowWrongType(const Row& row, const py::object& object) {
+    Options defaults;
+    const OptionField field = row.field(&defaults);
+    std::string expected = ExpectedOnFlag(row.option, field);
+    if (std::holds_alternative<bool*>(field)) expected = "True or False";
+    if (std::holds_alternative<std::string*>(field)) expected = "a str";
+    throw py::type_error(row.option.name + " is " + std::string(py::repr(object)) + ", expected " +
+                         expected);
+  }
+
   static std::string Suggestion(const std::string& misspelt) {
     std::vector<std::string> known;
     for (const Row& row : Options::Rows()) {
@@ -86,7 +146,10 @@ class OptionsClass {
       class_.def_property(
           row.option.name.c_str(),
           [kept](Options& options) { return OptionText(kept->field(&options)); },
-          [kept](Options& options, const std::string& name) { SetName(*kept, name, &options); },
+          [kept](Options& options, const py::object& name) {
+            if (!py::isinstance<py::str>(name)) ThrowWrongType(*kept, name);
+            SetName(*kept, name.cast<std::string>(), &options);
+          },
           TextOf(row, py::cast(OptionText(field))).c_str());
       return;
     }
@@ -98,8 +161,8 @@ class OptionsClass {
             class_.def_property(
                 row.option.name.c_str(),
                 [kept](Options& options) { return *std::get<Member>(kept->field(&options)); },
-                [kept](Options& options, Value value) {
-                  *std::get<Member>(kept->field(&options)) = value;
+                [kept](Options& options, const py::object& value) {
+                  *std::get<Member>(kept->field(&options)) = ToValue<Value>(*kept, value);
                 },
                 TextOf(row, py::cast(*member)).c_str());
           }
@@ -124,7 +187,7 @@ class OptionsClass {
       text += " One of '" + named->list("', '") + "'.";
     } else if (!std::holds_alternative<bool*>(field) &&
                !std::holds_alternative<std::string*>(field)) {
-      text += " " + ExpectedText(row.option, field) +
+      text += " " + ExpectedOnFlag(row.option, field) +
               (row.option.unit.empty() ? "." : ", " + row.option.unit + ".");
     }
     return text + " Default: " + std::string(py::repr(value)) + ".";

@@ -6,6 +6,7 @@
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/verdict.h>
 #include <ceres_ed/preflight/finding.h>
+#include <ceres_ed/python/colors.h>
 #include <ceres_ed/registration/fit.h>
 
 #include <memory>
@@ -20,28 +21,41 @@ namespace ceres_ed::python {
 // The class Cloud: points, and the file from which they were read.
 struct Cloud {
   PointCloud cloud;
+  Colors colors;
   // Null if the points came from arrays.
   std::unique_ptr<LoadedCloud> file;
 };
 
 // The class FitResult: the result of a fit, its input, and how far to trust them.
 struct FittedSurface {
+  // Without the target, which is not needed any more.
   FitInput input;
+  // The colours of the source.
+  Colors colors;
   FitResult result;
   Verdict verdict;
   std::vector<Finding> checks;
 };
 
+// Reads a file. Raises an OSError if it cannot be read, and a ValueError with the library's
+// sentence if its contents cannot be used.
+Cloud LoadFile(const std::string& path);
+
+// Returns whether an object is a path: a str or an os.PathLike.
+bool IsPath(const pybind11::handle& object);
+
 // A surface that exists during a call. The surface of a Cloud is shared; any other one is a copy.
 class SurfaceArgument {
  public:
   // `object` is a Cloud, a FitResult, a pair (points, triangles), an object with `vertices` and
-  // `faces` (trimesh) or `triangles` (Open3D), an object with `points`, or an array of points.
-  // Raises a TypeError or a ValueError that names `what` for anything else.
+  // `faces` (trimesh) or `triangles` (Open3D), an object with `points`, an array of points, or the
+  // path of a file. Raises a TypeError or a ValueError that names `what` for anything else.
   SurfaceArgument(const pybind11::object& object, const std::string& what);
 
   const PointCloud& operator*() const { return shared_ != nullptr ? *shared_ : own_; }
-  // The file from which the surface was read; null if it came from arrays.
+  // Returns the colours of the points; empty if there are none.
+  const Colors& colors() const { return shared_colors_ != nullptr ? *shared_colors_ : own_colors_; }
+  // The file from which the surface was read; null for arrays. It lives as long as this object.
   const PlyDocument* document() const { return document_; }
   // Returns a copy if the surface belongs to a Cloud, otherwise the surface itself.
   PointCloud Take() && {
@@ -53,8 +67,11 @@ class SurfaceArgument {
   // Keeps the Cloud alive.
   pybind11::object object_;
   const PointCloud* shared_ = nullptr;
-  const PlyDocument* document_ = nullptr;
   PointCloud own_;
+  const Colors* shared_colors_ = nullptr;
+  Colors own_colors_;
+  const PlyDocument* document_ = nullptr;
+  std::unique_ptr<LoadedCloud> own_file_;
 };
 
 }  // namespace ceres_ed::python

@@ -20,13 +20,13 @@ Tracker::Tracker(const PinholeCamera& camera,
                  const py::object& energies,
                  const py::object& plugin,
                  const py::kwargs& changes)
-    : camera_(camera), registry_(MakeRegistry(plugin)) {
+    : camera_(camera), energies_(ToEnergies(energies, plugin)) {
   SlamOptions changed = options != nullptr ? *options : SlamOptions();
   OptionsClass<SlamOptions>::Apply("Tracker", changes, &changed);
-  changed.levels.energies = ToEnergies(energies);
+  changed.levels.energies = energies_.specs;
   ExpectLargeBlocks();
   camera_is_given_ = changed.camera == CameraMode::kGiven;
-  slam_ = ValueOrThrow(DeformableSlam::Create(camera, changed, registry_));
+  slam_ = ValueOrThrow(DeformableSlam::Create(camera, changed, energies_.registry));
 }
 
 void Tracker::CheckSize(const py::array& image, const char* what) const {
@@ -102,13 +102,22 @@ FrameReport Tracker::Track(const py::object& depth_object,
   }
   const Turn turn(&busy_);
   next_number_ = frame.number + 1;
-  const py::gil_scoped_release release;
-  return slam_->Process(frame);
+  const auto process = [&] {
+    const py::gil_scoped_release release;
+    return slam_->Process(frame);
+  };
+  FrameReport report = process();
+  energies_.errors->Rethrow();
+  return report;
 }
 
 void Tracker::CatchUp() {
-  const py::gil_scoped_release release;
-  slam_->CatchUp();
+  const auto catch_up = [&] {
+    const py::gil_scoped_release release;
+    slam_->CatchUp();
+  };
+  catch_up();
+  energies_.errors->Rethrow();
 }
 
 MapSnapshot Tracker::Snapshot(const std::string& frame) {

@@ -2,11 +2,11 @@
 #ifndef CERES_ED_PYTHON_TRACKER_H_
 #define CERES_ED_PYTHON_TRACKER_H_
 
-#include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/geometry/similarity.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/results/map_ply.h>
+#include <ceres_ed/python/energies.h>
 #include <ceres_ed/slam/slam.h>
 
 #include <memory>
@@ -71,7 +71,7 @@ class Tracker {
 
   PinholeCamera camera_;
   bool camera_is_given_ = false;
-  EnergyRegistry registry_;
+  EnergyArguments energies_;
   std::unique_ptr<DeformableSlam> slam_;
   int next_number_ = 0;
   // It is only read and written with the interpreter's lock.

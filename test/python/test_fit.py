@@ -286,7 +286,10 @@ def test_keywords_come_before_options(plane):
     ({"rings": 1.5}, TypeError, None),
     ({"w_rot": -1.0}, ValueError, "w_rot is -1, expected a finite number >= 0"),
     ({"match_max_deviations": float("nan")}, ValueError, "match_max_deviations is nan"),
-    ({"threads": 0}, ValueError, "threads is 0, expected a whole number >= 1"),
+    ({"threads": -1}, ValueError, "threads is -1, expected a whole number >= 1"),
+    ({"threads": "two"}, TypeError, "threads is 'two', expected a whole number >= 1.* auto"),
+    ({"finish": "no"}, TypeError, "finish is 'no', expected"),
+    ({"mode": 3}, TypeError, "mode is 3, expected"),
     ({"landmarks": {9999999: (0, 0, 0)}}, ValueError, "names source point 9999999"),
     ({"landmarks": [1, 2]}, TypeError, "landmarks: expected"),
     ({"landmarks": ([1, 2], [[0, 0, 0]])}, ValueError, "2 source points and 1 positions"),
@@ -295,7 +298,7 @@ def test_keywords_come_before_options(plane):
     ({"progress": 3}, TypeError, None),
     ({"energies": "unknown"}, ValueError, "unknown"),
     ({"energies": "anchor:weight="}, ValueError, "weight"),
-    ({"energies": [3]}, TypeError, "expected an Energy or a str"),
+    ({"energies": [3]}, TypeError, "expected an Energy, a PointEnergy or a str"),
 ])
 def test_what_cannot_be_used_is_an_error(plane, arguments, error, message):
     with pytest.raises(error, match=message):

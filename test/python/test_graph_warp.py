@@ -137,7 +137,7 @@ def test_applies_what_ed_apply_applies(data, plane, run_app, tmp_path):
     (lambda g: ceres_ed.Graph.build(np.eye(3), sampling="odd"), "sampling is 'odd'"),
     (lambda g: ceres_ed.Warp(g, neighbors=0), "neighbors"),
     (lambda g: ceres_ed.Warp(g, distance="far"), "'surface' or 'euclidean'"),
-    (lambda g: ceres_ed.Warp(g).apply(np.eye(3), threads=0), "threads is 0"),
+    (lambda g: ceres_ed.Warp(g).apply(np.eye(3), threads=-1), "threads is -1"),
     (lambda g: setattr(ceres_ed.Warp(g), "translation", np.eye(3)), "expected shape"),
     (lambda g: setattr(ceres_ed.Warp(g), "affine", np.eye(3)), "expected shape"),
     (lambda g: setattr(ceres_ed.Warp(g), "target_from_source", np.diag([1.0, 1, -1, 1])),

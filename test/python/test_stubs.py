@@ -18,7 +18,7 @@ SCRIPT = Path(__file__).resolve().parents[2] / "scripts" / "refresh_stubs.py"
 TREE = ast.parse(STUB.read_text())
 
 # Python's own, and what every class has.
-SILENT = {"__repr__", "__doc__", "__module__", "__new__", "__class__", "__dict__", "__weakref__"}
+SILENT = {"__repr__", "__getstate__", "__setstate__", "__signature__", "__doc__", "__module__", "__new__", "__class__", "__dict__", "__weakref__"}
 
 
 def nodes_of(body, kind):
@@ -39,6 +39,9 @@ def parameters_of_stub(node):
 
 def parameters_of_module(function):
     """The same, of the first line of a docstring: name(a: A, *, b: B = 1, **kwargs) -> R."""
+    if inspect.isfunction(function) and not hasattr(function, "__wrapped__"):
+        return [(name, "positional") for name in inspect.signature(function).parameters
+                if name != "self"], None
     line = function.__doc__.splitlines()[0]
     text = re.fullmatch(r"\w+\((.*)\) -> .*", line).group(1)
     pieces, depth, quote = [""], 0, False
@@ -64,7 +67,8 @@ def parameters_of_module(function):
 def options_of(node):
     """The class whose options are the keywords of a function that takes `**kwargs`."""
     return {"fit": ceres_ed.FitOptions, "build": ceres_ed.GraphOptions,
-            "Tracker": ceres_ed.TrackerOptions}.get(node)
+            "Tracker": ceres_ed.TrackerOptions, "SurfaceFitter": ceres_ed.FitOptions,
+            "open_sequence": ceres_ed.SequenceOptions}.get(node)
 
 
 def check_parameters(stub, function, options):
@@ -139,7 +143,7 @@ def test_every_member_is_there_with_its_parameters(name):
                 assert [row for row, _ in found] == list(kind.names) and rest is None
             else:
                 check_parameters(methods[key][-1], function,
-                                 options_of(name if key == "__init__" else key))
+                                 options_of(name if key == "__init__" else key if key == "build" else None))
 
 
 @pytest.mark.parametrize("name", CLASSES)
@@ -166,6 +170,20 @@ tracker = ceres_ed.Tracker(ceres_ed.Camera(500, 500, 320, 240, 640, 480), camera
 status: str = tracker.track(np.zeros((480, 640), dtype=np.float32)).status
 result.warp.translation = result.warp.translation + 1
 names: list[str] = [energy.name for energy in ceres_ed.list_energies()]
+
+
+def still(points: NDArray[np.float64],
+          normals: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    return points[:, 2], np.tile([0.0, 0.0, 1.0], (len(points), 1))
+
+
+result = ceres_ed.fit("a.ply", energies=[ceres_ed.PointEnergy(still, kind="prior"), "floor"],
+                      threads="auto", time_limit_s="none")
+more = ceres_ed.SurfaceFitter(source, mode="batch").fit("b.ply").verdict.grade
+for frame in ceres_ed.open_sequence("folder", step=2):
+    status = tracker.track(frame.depth, frame.color, frame.pose).status
+figures = ceres_ed.evaluate_sequence("folder", "result")["truth"]
+mesh = ceres_ed.Cloud.from_trimesh(result.to_trimesh()).colors
 '''
 MISUSE = [
     'ceres_ed.fit(points, mode="bach")',
@@ -173,6 +191,9 @@ MISUSE = [
     'ceres_ed.fit(points).points = points',
     'ceres_ed.Camera(1, 2, 3)',
     'ceres_ed.evaluate(points)',
+    'ceres_ed.fit(points, threads="all")',
+    'ceres_ed.PointEnergy(lambda points: points)',
+    'ceres_ed.open_sequence("folder", setp=2)',
 ]
 
 

@@ -9,17 +9,20 @@ under a moving depth camera:
     result.warp.save("warp.json")
     ceres_ed.save("fitted.ply", result)
 
-A surface is an (N, 3) array of points, a pair (points, triangles), a Cloud, a FitResult, or a mesh
-or cloud of trimesh or Open3D.
+A surface is an (N, 3) array of points, a pair (points, triangles), a Cloud, a FitResult, a mesh or
+cloud of trimesh or Open3D, or the path of a file.
 """
+from . import _meshes, _notebook
 from ._core import (
     Camera, Cloud, DistanceStatistics, Energy, EnergyInfo, EnergyParameter, Evaluation, Finding,
-    FitOptions, FitProgress, FitResult, FrameReport, Graph, GraphOptions, MapSnapshot, ShapeChange, Tracker,
-    TrackerOptions, Verdict, Warp, __version__, backend, evaluate, fit, list_energies, load, save)
+    FitOptions, FitProgress, FitResult, Frame, FrameIterator, FrameReport, FrameSequence, Graph, GraphOptions,
+    MapSnapshot, PointEnergy, SequenceOptions, ShapeChange, SurfaceFitter, Tracker, TrackerOptions,
+    Verdict, Warp, __version__, backend, evaluate, evaluate_sequence, list_energies, load, save)
+from ._signatures import fit, open_sequence
 
 __all__ = [
     "Camera", "Cloud", "DistanceStatistics", "Energy", "EnergyInfo", "EnergyParameter",
-    "Evaluation", "Finding", "FitOptions", "FitProgress", "FitResult", "FrameReport", "Graph", "GraphOptions",
-    "MapSnapshot", "ShapeChange", "Tracker", "TrackerOptions", "Verdict", "Warp", "__version__",
-    "backend",
-    "evaluate", "fit", "list_energies", "load", "save"]
+    "Evaluation", "Finding", "FitOptions", "FitProgress", "FitResult", "Frame", "FrameIterator", "FrameReport",
+    "FrameSequence", "Graph", "GraphOptions", "MapSnapshot", "PointEnergy", "SequenceOptions",
+    "ShapeChange", "SurfaceFitter", "Tracker", "TrackerOptions", "Verdict", "Warp", "__version__", "backend",
+    "evaluate", "evaluate_sequence", "fit", "list_energies", "load", "open_sequence", "save"]

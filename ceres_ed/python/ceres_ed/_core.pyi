@@ -17,10 +17,20 @@ LinearSolver = Literal["block", "ceres"]
 Loss = Literal["squared", "huber", "cauchy", "tukey", "welsch", "geman_mcclure"]
 Mode = Literal["batch", "two_level", "marginal"]
 Sampling = Literal["uniform", "farthest"]
+SequenceFormat = Literal[
+    "auto", "tum", "native", "hamlyn", "native_stereo", "scikit_surgery", "stereo_video",
+    "stereomis", "scared", "endonerf", "deform3dgs", "d4d", "servct", "surgt", "stir",
+    "hamlyn_stereo", "c3vd", "deepdeform", "super", "sevenscenes"]
 
 Path = Union[str, PathLike[str]]
+Threads = Union[int, Literal["auto"]]
 Plugins = Union[Path, Sequence[Path]]
-Energies = Union[str, Energy, Sequence[Union[str, Energy]]]
+PointFunction = Union[
+    Callable[[NDArray[np.float64], NDArray[np.float64]], tuple[ArrayLike, ArrayLike]],
+    Callable[[NDArray[np.float64], NDArray[np.float64], NDArray[np.int32]],
+             tuple[ArrayLike, ArrayLike]]]
+AnyEnergy = Union[str, Energy, PointEnergy]
+Energies = Union[AnyEnergy, Sequence[AnyEnergy]]
 Landmarks = Union[Mapping[int, ArrayLike], tuple[ArrayLike, ArrayLike]]
 
 
@@ -36,19 +46,28 @@ class HasPoints(Protocol):
     def points(self) -> Any: ...
 
 
-Surface = Union[ArrayLike, tuple[ArrayLike, ArrayLike], Cloud, FitResult, HasVertices, HasPoints]
+Surface = Union[
+    ArrayLike, tuple[ArrayLike, ArrayLike], Cloud, FitResult, HasVertices, HasPoints, Path]
 
 
 class Cloud:
     def __init__(
             self, points: Surface, triangles: Optional[ArrayLike] = None,
-            normals: Optional[ArrayLike] = None) -> None: ...
+            normals: Optional[ArrayLike] = None, colors: Optional[ArrayLike] = None) -> None: ...
+    @staticmethod
+    def from_trimesh(mesh: Any) -> Cloud: ...
+    @staticmethod
+    def from_open3d(mesh: Any) -> Cloud: ...
+    def to_trimesh(self) -> Any: ...
+    def to_open3d(self) -> Any: ...
     @property
     def points(self) -> NDArray[np.float64]: ...
     @property
     def triangles(self) -> Optional[NDArray[np.int32]]: ...
     @property
     def normals(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def colors(self) -> Optional[NDArray[np.uint8]]: ...
     @property
     def warnings(self) -> list[str]: ...
     def __len__(self) -> int: ...
@@ -68,6 +87,25 @@ class Energy:
     def loss_width(self) -> float: ...
     @property
     def parameters(self) -> dict[str, float]: ...
+
+
+class PointEnergy:
+    def __init__(
+            self, function: PointFunction, weight: float = ..., *,
+            kind: Literal["prior", "observation"] = ..., loss: Loss = ..., loss_width: float = ...,
+            name: Optional[str] = None) -> None: ...
+    @property
+    def function(self) -> Callable[..., Any]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def weight(self) -> float: ...
+    @property
+    def kind(self) -> str: ...
+    @property
+    def loss(self) -> str: ...
+    @property
+    def loss_width(self) -> float: ...
 
 
 class EnergyParameter:
@@ -103,6 +141,7 @@ class EnergyInfo:
 
 
 class GraphOptions:
+    words: ClassVar[dict[str, str]]
     names: ClassVar[tuple[str, ...]]
     sampling: Sampling
     distance: Distance
@@ -117,10 +156,12 @@ class GraphOptions:
     edges_per_joint: int
     threads: int
     def __init__(
-            self, *, sampling: Sampling = ..., distance: Distance = ..., node_spacing: float = ...,
-            target_nodes: int = ..., auto_spacing: float = ..., neighbors: int = ...,
-            edges: EdgeRule = ..., edges_per_node: int = ..., min_component_points: int = ...,
-            join_pieces: bool = ..., edges_per_joint: int = ..., threads: int = ...) -> None: ...
+            self, *, sampling: Sampling = ..., distance: Distance = ...,
+            node_spacing: Union[float, Literal["automatic"]] = ...,
+            target_nodes: Union[int, Literal["automatic"]] = ..., auto_spacing: float = ...,
+            neighbors: int = ..., edges: EdgeRule = ..., edges_per_node: int = ...,
+            min_component_points: int = ..., join_pieces: bool = ..., edges_per_joint: int = ...,
+            threads: Threads = ...) -> None: ...
     def __copy__(self) -> GraphOptions: ...
     def copy(self) -> GraphOptions: ...
 
@@ -132,10 +173,11 @@ class Graph:
     @staticmethod
     def build(
             surface: Surface, options: Optional[GraphOptions] = None, *, sampling: Sampling = ...,
-            distance: Distance = ..., node_spacing: float = ..., target_nodes: int = ...,
-            auto_spacing: float = ..., neighbors: int = ..., edges: EdgeRule = ...,
-            edges_per_node: int = ..., min_component_points: int = ..., join_pieces: bool = ...,
-            edges_per_joint: int = ..., threads: int = ...) -> Graph: ...
+            distance: Distance = ..., node_spacing: Union[float, Literal["automatic"]] = ...,
+            target_nodes: Union[int, Literal["automatic"]] = ..., auto_spacing: float = ...,
+            neighbors: int = ..., edges: EdgeRule = ..., edges_per_node: int = ...,
+            min_component_points: int = ..., join_pieces: bool = ..., edges_per_joint: int = ...,
+            threads: Threads = ...) -> Graph: ...
     @property
     def nodes(self) -> NDArray[np.float64]: ...
     @property
@@ -164,11 +206,11 @@ class Warp:
     @overload
     def apply(
             self, points: Surface, normals: None = None, *,
-            threads: int = 1) -> NDArray[np.float64]: ...
+            threads: Threads = 1) -> NDArray[np.float64]: ...
     @overload
     def apply(
             self, points: Surface, normals: ArrayLike, *,
-            threads: int = 1) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+            threads: Threads = 1) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
     @property
     def graph(self) -> Graph: ...
     @property
@@ -185,6 +227,7 @@ class Warp:
 
 
 class FitOptions:
+    words: ClassVar[dict[str, str]]
     names: ClassVar[tuple[str, ...]]
     mode: Mode
     rings: int
@@ -254,20 +297,21 @@ class FitOptions:
     def __init__(
             self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
             linear_solver: LinearSolver = ..., relinearize_above: float = ...,
-            marginal_reach: int = ..., graph_sampling: Sampling = ...,
-            graph_distance: Distance = ..., node_spacing: float = ..., target_nodes: int = ...,
-            graph_auto_spacing: float = ..., neighbors: int = ..., graph_edges: EdgeRule = ...,
-            graph_edges_per_node: int = ..., graph_min_component_points: int = ...,
-            graph_join_pieces: bool = ..., graph_edges_per_joint: int = ...,
-            volume: Literal["auto", "on", "off"] = ..., w_rot: float = ..., w_reg: float = ...,
-            w_volume: float = ..., w_data: float = ..., w_landmark: float = ...,
-            w_fixed: float = ..., point_to_point_share: float = ..., levels: int = ...,
-            initial_stiffness: float = ..., final_stiffness: float = ...,
+            marginal_reach: Union[int, Literal["all"]] = ..., graph_sampling: Sampling = ...,
+            graph_distance: Distance = ..., node_spacing: Union[float, Literal["automatic"]] = ...,
+            target_nodes: Union[int, Literal["automatic"]] = ..., graph_auto_spacing: float = ...,
+            neighbors: int = ..., graph_edges: EdgeRule = ..., graph_edges_per_node: int = ...,
+            graph_min_component_points: int = ..., graph_join_pieces: bool = ...,
+            graph_edges_per_joint: int = ..., volume: Literal["auto", "on", "off"] = ...,
+            w_rot: float = ..., w_reg: float = ..., w_volume: float = ..., w_data: float = ...,
+            w_landmark: float = ..., w_fixed: float = ..., point_to_point_share: float = ...,
+            levels: int = ..., initial_stiffness: float = ..., final_stiffness: float = ...,
             noise_stiffness: float = ..., coarse_steps: int = ..., fine_steps: int = ...,
             max_rounds: int = ..., tolerance: float = ..., solver_iterations: int = ...,
             loss: Loss = ..., loss_width: float = ..., careful_loss_width: float = ...,
-            careful_angle_deg: float = ..., hypotheses: str = ..., max_distance: float = ...,
-            max_angle_deg: float = ..., match_max_deviations: float = ...,
+            careful_angle_deg: float = ..., hypotheses: str = ...,
+            max_distance: Union[float, Literal["unlimited"]] = ..., max_angle_deg: float = ...,
+            match_max_deviations: Union[float, Literal["unlimited"]] = ...,
             match_reject_borders: bool = ..., match_symmetric_normals: bool = ...,
             max_samples: int = ..., denoise: bool = ..., rigid_first: bool = ...,
             rigid_scale: bool = ..., rigid_initial_scale: float = ...,
@@ -276,8 +320,8 @@ class FitOptions:
             finish_rounds: int = ..., finish_steps: int = ..., finish_smoothing: float = ...,
             finish_max_smoothing: float = ..., finish_fade: float = ...,
             finish_point_to_point_share: float = ..., finish_loss_width: float = ...,
-            unfold: bool = ..., covariance: bool = ..., threads: int = ...,
-            time_limit_s: float = ...) -> None: ...
+            unfold: bool = ..., covariance: bool = ..., threads: Threads = ...,
+            time_limit_s: Union[float, Literal["none"]] = ...) -> None: ...
     def __copy__(self) -> FitOptions: ...
     def copy(self) -> FitOptions: ...
 
@@ -318,6 +362,13 @@ class Finding:
 
 
 class FitResult:
+    def to_trimesh(self) -> Any: ...
+    def to_open3d(self) -> Any: ...
+    def _repr_html_(self) -> str: ...
+    @property
+    def colors(self) -> Optional[NDArray[np.uint8]]: ...
+    @property
+    def source_points(self) -> NDArray[np.float64]: ...
     @property
     def points(self) -> NDArray[np.float64]: ...
     @property
@@ -377,6 +428,44 @@ class FitResult:
     def __len__(self) -> int: ...
 
 
+class SurfaceFitter:
+    def __init__(
+            self, source: Surface, options: Optional[FitOptions] = None, *,
+            energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
+            rings: int = ..., boundary: Boundary = ..., linear_solver: LinearSolver = ...,
+            relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
+            graph_sampling: Sampling = ..., graph_distance: Distance = ...,
+            node_spacing: Union[float, Literal["automatic"]] = ...,
+            target_nodes: Union[int, Literal["automatic"]] = ..., graph_auto_spacing: float = ...,
+            neighbors: int = ..., graph_edges: EdgeRule = ..., graph_edges_per_node: int = ...,
+            graph_min_component_points: int = ..., graph_join_pieces: bool = ...,
+            graph_edges_per_joint: int = ..., volume: Literal["auto", "on", "off"] = ...,
+            w_rot: float = ..., w_reg: float = ..., w_volume: float = ..., w_data: float = ...,
+            w_landmark: float = ..., w_fixed: float = ..., point_to_point_share: float = ...,
+            levels: int = ..., initial_stiffness: float = ..., final_stiffness: float = ...,
+            noise_stiffness: float = ..., coarse_steps: int = ..., fine_steps: int = ...,
+            max_rounds: int = ..., tolerance: float = ..., solver_iterations: int = ...,
+            loss: Loss = ..., loss_width: float = ..., careful_loss_width: float = ...,
+            careful_angle_deg: float = ..., hypotheses: str = ...,
+            max_distance: Union[float, Literal["unlimited"]] = ..., max_angle_deg: float = ...,
+            match_max_deviations: Union[float, Literal["unlimited"]] = ...,
+            match_reject_borders: bool = ..., match_symmetric_normals: bool = ...,
+            max_samples: int = ..., denoise: bool = ..., rigid_first: bool = ...,
+            rigid_scale: bool = ..., rigid_initial_scale: float = ...,
+            rigid_max_angle_deg: float = ..., rigid_score_width: float = ...,
+            rigid_good_score: float = ..., rigid_preference: float = ..., finish: bool = ...,
+            finish_rounds: int = ..., finish_steps: int = ..., finish_smoothing: float = ...,
+            finish_max_smoothing: float = ..., finish_fade: float = ...,
+            finish_point_to_point_share: float = ..., finish_loss_width: float = ...,
+            unfold: bool = ..., covariance: bool = ..., threads: Threads = ...,
+            time_limit_s: Union[float, Literal["none"]] = ...) -> None: ...
+    def fit(
+            self, target: Optional[Surface] = None, *, landmarks: Optional[Landmarks] = None,
+            fixed: Optional[ArrayLike] = None,
+            should_stop: Optional[Callable[[], bool]] = None) -> FitResult: ...
+    def __len__(self) -> int: ...
+
+
 class DistanceStatistics:
     @property
     def mean(self) -> float: ...
@@ -411,6 +500,8 @@ class ShapeChange:
 
 
 class Evaluation:
+    def _repr_html_(self) -> str: ...
+    def as_dict(self) -> dict[str, Any]: ...
     @property
     def diagonal(self) -> float: ...
     @property
@@ -434,6 +525,7 @@ class Evaluation:
 
 
 class TrackerOptions:
+    words: ClassVar[dict[str, str]]
     names: ClassVar[tuple[str, ...]]
     mode: Mode
     rings: int
@@ -488,24 +580,26 @@ class TrackerOptions:
     def __init__(
             self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
             linear_solver: LinearSolver = ..., relinearize_above: float = ...,
-            marginal_reach: int = ..., w_rot: float = ..., w_reg: float = ...,
-            yield_strain: float = ..., w_node_prior: float = ..., w_data: float = ...,
-            w_feature: float = ..., prior_rotation_deg: float = ..., prior_translation: float = ...,
-            level2: LevelTwo = ..., lazy_tolerance: float = ..., lazy_reach: int = ...,
-            lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ..., camera: CameraMode = ...,
-            rigid: bool = ..., node_spacing: float = ..., nodes_in_view: int = ...,
+            marginal_reach: Union[int, Literal["all"]] = ..., w_rot: float = ...,
+            w_reg: float = ..., yield_strain: Union[float, Literal["never"]] = ...,
+            w_node_prior: float = ..., w_data: float = ..., w_feature: float = ...,
+            prior_rotation_deg: float = ..., prior_translation: float = ..., level2: LevelTwo = ...,
+            lazy_tolerance: float = ..., lazy_reach: int = ..., lazy_waves_per_frame: int = ...,
+            lazy_max_seeds: int = ..., camera: CameraMode = ..., rigid: bool = ...,
+            node_spacing: Union[float, Literal["automatic"]] = ..., nodes_in_view: int = ...,
             neighbors: int = ..., features: bool = ..., rounds: int = ...,
             max_observations: int = ..., max_point_weight: float = ...,
             memory_max_moments: int = ..., memory_likeness: float = ...,
-            memory_min_common: int = ..., verify_every: int = ..., covariance: bool = ...,
-            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
-            feature_window: int = ..., feature_pyramid_levels: int = ...,
-            feature_light_radius: float = ..., feature_max_round_trip: float = ...,
-            feature_min_distance: float = ..., feature_quality: float = ...,
-            growth_point_spacing: float = ..., growth_node_coverage: float = ...,
-            growth_edges_per_node: int = ..., growth_max_view_angle_deg: float = ...,
-            surface_cell: int = ..., surface_radius: int = ...,
-            surface_max_slope_noise: float = ..., surface_max_slope_deg: float = ...) -> None: ...
+            memory_min_common: int = ..., verify_every: Union[int, Literal["none"]] = ...,
+            covariance: bool = ..., threads: Threads = ..., feature_count: int = ...,
+            feature_max_deviations: float = ..., feature_window: int = ...,
+            feature_pyramid_levels: int = ..., feature_light_radius: float = ...,
+            feature_max_round_trip: float = ..., feature_min_distance: float = ...,
+            feature_quality: float = ..., growth_point_spacing: float = ...,
+            growth_node_coverage: float = ..., growth_edges_per_node: int = ...,
+            growth_max_view_angle_deg: float = ..., surface_cell: int = ...,
+            surface_radius: int = ..., surface_max_slope_noise: float = ...,
+            surface_max_slope_deg: float = ...) -> None: ...
     def __copy__(self) -> TrackerOptions: ...
     def copy(self) -> TrackerOptions: ...
 
@@ -593,24 +687,27 @@ class Tracker:
             self, intrinsics: Camera, options: Optional[TrackerOptions] = None, *,
             energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
             rings: int = ..., boundary: Boundary = ..., linear_solver: LinearSolver = ...,
-            relinearize_above: float = ..., marginal_reach: int = ..., w_rot: float = ...,
-            w_reg: float = ..., yield_strain: float = ..., w_node_prior: float = ...,
+            relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
+            w_rot: float = ..., w_reg: float = ...,
+            yield_strain: Union[float, Literal["never"]] = ..., w_node_prior: float = ...,
             w_data: float = ..., w_feature: float = ..., prior_rotation_deg: float = ...,
             prior_translation: float = ..., level2: LevelTwo = ..., lazy_tolerance: float = ...,
             lazy_reach: int = ..., lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ...,
-            camera: CameraMode = ..., rigid: bool = ..., node_spacing: float = ...,
-            nodes_in_view: int = ..., neighbors: int = ..., features: bool = ..., rounds: int = ...,
+            camera: CameraMode = ..., rigid: bool = ...,
+            node_spacing: Union[float, Literal["automatic"]] = ..., nodes_in_view: int = ...,
+            neighbors: int = ..., features: bool = ..., rounds: int = ...,
             max_observations: int = ..., max_point_weight: float = ...,
             memory_max_moments: int = ..., memory_likeness: float = ...,
-            memory_min_common: int = ..., verify_every: int = ..., covariance: bool = ...,
-            threads: int = ..., feature_count: int = ..., feature_max_deviations: float = ...,
-            feature_window: int = ..., feature_pyramid_levels: int = ...,
-            feature_light_radius: float = ..., feature_max_round_trip: float = ...,
-            feature_min_distance: float = ..., feature_quality: float = ...,
-            growth_point_spacing: float = ..., growth_node_coverage: float = ...,
-            growth_edges_per_node: int = ..., growth_max_view_angle_deg: float = ...,
-            surface_cell: int = ..., surface_radius: int = ...,
-            surface_max_slope_noise: float = ..., surface_max_slope_deg: float = ...) -> None: ...
+            memory_min_common: int = ..., verify_every: Union[int, Literal["none"]] = ...,
+            covariance: bool = ..., threads: Threads = ..., feature_count: int = ...,
+            feature_max_deviations: float = ..., feature_window: int = ...,
+            feature_pyramid_levels: int = ..., feature_light_radius: float = ...,
+            feature_max_round_trip: float = ..., feature_min_distance: float = ...,
+            feature_quality: float = ..., growth_point_spacing: float = ...,
+            growth_node_coverage: float = ..., growth_edges_per_node: int = ...,
+            growth_max_view_angle_deg: float = ..., surface_cell: int = ...,
+            surface_radius: int = ..., surface_max_slope_noise: float = ...,
+            surface_max_slope_deg: float = ...) -> None: ...
     def track(
             self, depth: ArrayLike, color: Optional[ArrayLike] = None,
             pose: Optional[ArrayLike] = None, *, units_per_metre: Optional[float] = None,
@@ -628,9 +725,69 @@ class Tracker:
     def __len__(self) -> int: ...
 
 
+class SequenceOptions:
+    words: ClassVar[dict[str, str]]
+    names: ClassVar[tuple[str, ...]]
+    format: SequenceFormat
+    first: int
+    last: int
+    step: int
+    depth_from: Literal["auto", "images", "stereo"]
+    color: bool
+    masks: bool
+    mask_means: Literal["auto", "tool", "tissue"]
+    depth_units_per_metre: float
+    def __init__(
+            self, *, format: SequenceFormat = ..., first: int = ...,
+            last: Union[int, Literal["end"]] = ..., step: int = ...,
+            depth_from: Literal["auto", "images", "stereo"] = ..., color: bool = ...,
+            masks: bool = ..., mask_means: Literal["auto", "tool", "tissue"] = ...,
+            depth_units_per_metre: Union[float, Literal["automatic"]] = ...) -> None: ...
+    def __copy__(self) -> SequenceOptions: ...
+    def copy(self) -> SequenceOptions: ...
+
+
+class Frame:
+    @property
+    def number(self) -> int: ...
+    @property
+    def time(self) -> float: ...
+    @property
+    def depth(self) -> NDArray[np.float32]: ...
+    @property
+    def color(self) -> Optional[NDArray[np.uint8]]: ...
+    @property
+    def pose(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def warning(self) -> str: ...
+
+
+class FrameIterator:
+    def __iter__(self) -> FrameIterator: ...
+    def __next__(self) -> Frame: ...
+
+
+class FrameSequence:
+    def __len__(self) -> int: ...
+    def __getitem__(self, index: int) -> Frame: ...
+    def __iter__(self) -> FrameIterator: ...
+    @property
+    def camera(self) -> Camera: ...
+    @property
+    def numbers(self) -> list[int]: ...
+    @property
+    def is_stereo(self) -> bool: ...
+    @property
+    def has_color(self) -> bool: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def warnings(self) -> list[str]: ...
+
+
 def load(path: Path) -> Cloud: ...
 def save(
-        path: Path, surface: Surface, *, like: Optional[Cloud] = None,
+        path: Path, surface: Surface, *, like: Optional[Union[Cloud, Path]] = None,
         double_precision: bool = False) -> None: ...
 def fit(
         source: Surface, target: Optional[Surface] = None, *, landmarks: Optional[Landmarks] = None,
@@ -639,8 +796,9 @@ def fit(
         progress: Optional[Callable[[FitProgress], object]] = None,
         should_stop: Optional[Callable[[], bool]] = None, mode: Mode = ..., rings: int = ...,
         boundary: Boundary = ..., linear_solver: LinearSolver = ..., relinearize_above: float = ...,
-        marginal_reach: int = ..., graph_sampling: Sampling = ..., graph_distance: Distance = ...,
-        node_spacing: float = ..., target_nodes: int = ..., graph_auto_spacing: float = ...,
+        marginal_reach: Union[int, Literal["all"]] = ..., graph_sampling: Sampling = ...,
+        graph_distance: Distance = ..., node_spacing: Union[float, Literal["automatic"]] = ...,
+        target_nodes: Union[int, Literal["automatic"]] = ..., graph_auto_spacing: float = ...,
         neighbors: int = ..., graph_edges: EdgeRule = ..., graph_edges_per_node: int = ...,
         graph_min_component_points: int = ..., graph_join_pieces: bool = ...,
         graph_edges_per_joint: int = ..., volume: Literal["auto", "on", "off"] = ...,
@@ -650,8 +808,9 @@ def fit(
         noise_stiffness: float = ..., coarse_steps: int = ..., fine_steps: int = ...,
         max_rounds: int = ..., tolerance: float = ..., solver_iterations: int = ...,
         loss: Loss = ..., loss_width: float = ..., careful_loss_width: float = ...,
-        careful_angle_deg: float = ..., hypotheses: str = ..., max_distance: float = ...,
-        max_angle_deg: float = ..., match_max_deviations: float = ...,
+        careful_angle_deg: float = ..., hypotheses: str = ...,
+        max_distance: Union[float, Literal["unlimited"]] = ..., max_angle_deg: float = ...,
+        match_max_deviations: Union[float, Literal["unlimited"]] = ...,
         match_reject_borders: bool = ..., match_symmetric_normals: bool = ...,
         max_samples: int = ..., denoise: bool = ..., rigid_first: bool = ...,
         rigid_scale: bool = ..., rigid_initial_scale: float = ..., rigid_max_angle_deg: float = ...,
@@ -660,9 +819,16 @@ def fit(
         finish_steps: int = ..., finish_smoothing: float = ..., finish_max_smoothing: float = ...,
         finish_fade: float = ..., finish_point_to_point_share: float = ...,
         finish_loss_width: float = ..., unfold: bool = ..., covariance: bool = ...,
-        threads: int = ..., time_limit_s: float = ...) -> FitResult: ...
+        threads: Threads = ..., time_limit_s: Union[float, Literal["none"]] = ...) -> FitResult: ...
 def evaluate(
         result: Surface, target: Surface, truth: Optional[Surface] = None,
         source: Optional[Surface] = None) -> Evaluation: ...
+def evaluate_sequence(sequence: Path, result: Path) -> dict[str, Any]: ...
+def open_sequence(
+        path: Path, options: Optional[SequenceOptions] = None, *, format: SequenceFormat = ...,
+        first: int = ..., last: Union[int, Literal["end"]] = ..., step: int = ...,
+        depth_from: Literal["auto", "images", "stereo"] = ..., color: bool = ..., masks: bool = ...,
+        mask_means: Literal["auto", "tool", "tissue"] = ...,
+        depth_units_per_metre: Union[float, Literal["automatic"]] = ...) -> FrameSequence: ...
 def list_energies(plugin: Optional[Plugins] = None) -> list[EnergyInfo]: ...
 def backend() -> dict[str, str]: ...
