@@ -18,7 +18,8 @@ RunFlag::Type TypeOf(const std::string& type) {
 RunFlags CurrentFlags() {
   RunFlags flags;
   for (const auto& flag : OwnFlags()) {
-    flags.push_back({flag.name, CurrentValue(flag.name), TypeOf(flag.type)});
+    flags.push_back(
+        {flag.name, CurrentValue(flag.name), TypeOf(flag.type), /*is_given=*/!flag.is_default});
   }
   return flags;
 }

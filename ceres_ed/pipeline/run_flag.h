@@ -14,6 +14,8 @@ struct RunFlag {
   // "true" or "false" for kBool. A number has the fewest digits from which the same number is read.
   std::string value;
   Type type = Type::kText;
+  // Whether it stood on the command line; otherwise the value is the default.
+  bool is_given = false;
 };
 
 using RunFlags = std::vector<RunFlag>;

@@ -196,6 +196,7 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
   }
   // A node alone does not fold a surface whose faces say otherwise.
   if (!input_.source.HasTriangles() || finish.has_folds()) WarnAboutReflections(state);
+  for (FitRound& round : result_.rounds) round.rms_plane /= unit_from_target_.scale;
   result_.matches.rms_plane /= unit_from_target_.scale;
   result_.matches.rms_point /= unit_from_target_.scale;
   result_.matches.robust_distance /= unit_from_target_.scale;

@@ -206,6 +206,7 @@ const OptionTable<FitOptions>& FitOptions::Rows() {
       Nested(&O::finish_options, FinishOptions::Rows(), "finish_"),
       Row(&O::unfold, "unfold", "Lay faces flat again that the fit has folded over."),
       Row(&O::covariance, "covariance", "Work out how well every point is determined.").Main(),
+      NotData(&O::record_rounds),
       Row(&O::num_threads, "threads", "The threads; the result does not depend on them.")
           .In(AtLeast(1))
           .Special(0, std::max(1u, std::thread::hardware_concurrency()), "auto")

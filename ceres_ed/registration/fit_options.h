@@ -235,6 +235,9 @@ struct FitOptions {
   // Whether the determination of every source point is computed (FitResult::uncertainty); default
   // false.
   bool covariance = false;
+  // Whether the energies after each round on the finest graph are kept (FitResult::rounds); default
+  // false.
+  bool record_rounds = false;
   // Number of threads, >= 1, default 1. The result does not depend on it.
   int num_threads = 1;
   // The wall time of the whole fit in seconds, > 0; default infinity, which means no limit.

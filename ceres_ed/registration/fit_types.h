@@ -86,6 +86,17 @@ struct FitUncertainty {
   std::vector<double> StandardDeviations() const;
 };
 
+// The state of a fit after one round on its finest graph.
+struct FitRound {
+  // The factor of the weights of E_rot and E_reg in this round.
+  double stiffness = 1.0;
+  // The number of pairs, and the root mean square point-to-plane distance, in the target's unit.
+  int inliers = 0;
+  double rms_plane = 0.0;
+  // The energies with the final weights, so that rounds can be compared.
+  EnergySummary energy;
+};
+
 // The result of a fit. Its initial status is failed.
 struct FitResult {
   SolveStatus status = SolveStatus::kFailed;
@@ -106,6 +117,8 @@ struct FitResult {
   Matches matches;
   EnergySummary initial_energy;
   EnergySummary final_energy;
+  // Every round on the finest graph, in order; empty unless FitOptions::record_rounds.
+  std::vector<FitRound> rounds;
   int outer_iterations = 0;
   int solver_iterations = 0;
   // The largest distance of a fixed point from its position, in the target's unit; 0 if there are

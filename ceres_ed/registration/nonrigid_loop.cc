@@ -49,6 +49,7 @@ class NonrigidLoop {
   void Match();
   SolveSummary Solve(int max_iterations);
   void MeasureInitialEnergy();
+  void RecordRound();
   bool Stopped() { return MustEnd(fit_, result_); }
   // Asks whether the next step is worth its time.
   bool KeepsGoing(int step) const;
@@ -121,6 +122,15 @@ void NonrigidLoop::MeasureInitialEnergy() {
   problem_->SetStiffness(stiffness_);
 }
 
+void NonrigidLoop::RecordRound() {
+  if (!options_.record_rounds || !plan_.is_last) return;
+  const Matches& matches = result_->matches;
+  problem_->SetStiffness(plan_.last_stiffness);
+  result_->rounds.push_back(
+      {stiffness_, matches.inliers, matches.rms_plane, problem_->builder().Evaluate(*state_)});
+  problem_->SetStiffness(stiffness_);
+}
+
 NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
   if (target_ != nullptr) Match();
   if (!initial_energy_known_ && plan_.is_last) MeasureInitialEnergy();
@@ -137,6 +147,7 @@ NonrigidLoop::RoundOutcome NonrigidLoop::RunRound(int max_iterations) {
     return RoundOutcome::kStopped;
   }
   const double motion = moving_.Move(*state_, options_.num_threads);
+  RecordRound();
   if (Stopped()) return RoundOutcome::kStopped;
   return motion < options_.schedule.tolerance ? RoundOutcome::kStill : RoundOutcome::kMoving;
 }

@@ -149,6 +149,31 @@ TEST_F(EdFitTest, ReportsFiguresThatAgreeWithTheFiles) {
   EXPECT_GT(report["time_s"]["total"], report["time_s"]["solve"]);
 }
 
+TEST_F(EdFitTest, ReportsTheEnergyOfEveryRound) {
+  ASSERT_EQ(FitPair({"--report=" + (dir_ / "report.json")}).exit_code, 0);
+  const nlohmann::json energy = Report()["energy"];
+  ASSERT_GT(energy["rounds"].size(), 1U);
+  for (const nlohmann::json& round : energy["rounds"]) {
+    EXPECT_GT(round["inliers"], 0);
+    EXPECT_GT(double(round["stiffness"]), 0.999 * double(Report()["flags"]["final_stiffness"]));
+    double sum = 0.0;
+    for (const auto& term : round["terms"]) sum += double(term);
+    EXPECT_NEAR(round["total"], sum, 1e-9 * sum);
+  }
+  // The weights are those of the end.
+  EXPECT_NEAR(energy["rounds"].back()["total"], energy["final"], 1e-9 * double(energy["final"]));
+}
+
+TEST_F(EdFitTest, ReportsACommandThatRepeatsTheRun) {
+  const std::string report = "--report=" + (dir_ / "report.json");
+  ASSERT_EQ(FitPair({report, "--node_spacing=0.3"}).exit_code, 0);
+  const nlohmann::json given = Report()["flags_given"];
+  EXPECT_EQ(given, nlohmann::json({"node_spacing", "output", "report"}));
+  const std::string command = Report()["command"];
+  EXPECT_THAT(command, StartsWith("ed_fit "));
+  EXPECT_THAT(command, ::testing::HasSubstr(" --node_spacing=0.3"));
+}
+
 TEST_F(EdFitTest, ReportsTheNoiseOfTheTarget) {
   RingOptions dense;
   dense.columns = 72;

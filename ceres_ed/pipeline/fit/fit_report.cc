@@ -4,6 +4,7 @@
 #include <ceres_ed/pipeline/check/check_files.h>
 #include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/pipeline/run_command.h>
 #include <ceres_ed/version.h>
 
 #include <algorithm>
@@ -31,17 +32,40 @@ ordered_json NodesReport(const FitResult& result) {
       {"total", total}, {"pr", pr}, {"pi", total - pr}, {"edges", result.warp.graph.num_edges()}};
 }
 
+// Returns a name for a term that `terms` does not have: a user may add an energy with the name of
+// another one, and then the names get numbers.
+std::string FreeName(const ordered_json& terms, const std::string& label) {
+  std::string name = label;
+  for (int copy = 2; terms.contains(name); ++copy) name = label + "_" + std::to_string(copy);
+  return name;
+}
+
+ordered_json RoundsReport(const std::vector<FitRound>& rounds) {
+  ordered_json report = ordered_json::array();
+  for (const FitRound& round : rounds) {
+    ordered_json terms = ordered_json::object();
+    for (const TermEnergy& term : round.energy.terms) {
+      terms[FreeName(terms, term.label)] = term.weighted;
+    }
+    report.push_back({{"stiffness", round.stiffness},
+                      {"inliers", round.inliers},
+                      {"rms_plane", round.rms_plane},
+                      {"total", round.energy.Total()},
+                      {"terms", terms}});
+  }
+  return report;
+}
+
 ordered_json EnergyReport(const FitResult& result) {
   ordered_json terms = ordered_json::object();
   for (const TermEnergy& term : result.final_energy.terms) {
-    // A user may add an energy with the name of another one: the names get numbers.
-    std::string name = term.label;
-    for (int copy = 2; terms.contains(name); ++copy) name = term.label + "_" + std::to_string(copy);
-    terms[name] = {{"weighted", term.weighted}, {"raw", term.raw}, {"residuals", term.residuals}};
+    terms[FreeName(terms, term.label)] = {
+        {"weighted", term.weighted}, {"raw", term.raw}, {"residuals", term.residuals}};
   }
   return {{"initial", result.initial_energy.Total()},
           {"final", result.final_energy.Total()},
-          {"terms", terms}};
+          {"terms", terms},
+          {"rounds", RoundsReport(result.rounds)}};
 }
 
 // Returns null if the covariance was not requested or could not be computed.
@@ -240,6 +264,9 @@ ordered_json FitReport(const FitRun& run) {
       {"threads", run.settings->options.num_threads},
       {"warnings", run.warnings},
       {"flags", FlagsReport(run.settings->flags)},
+      {"flags_given", GivenFlagsReport(run.settings->flags)},
+      {"command",
+       CommandText("ed_fit", {run.settings->source, run.settings->target}, run.settings->flags)},
       {"backend", BackendReport()}};
 }
 

@@ -165,6 +165,7 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
         ApplyScale(*scale, files->source.diagonal, files->target.diagonal, &options);
     if (!note.empty()) files->warnings.push_back(note);
   }
+  options.record_rounds = !settings.report.empty();
   const double load_s = clock.Seconds();
   const StatusOr<FitResult> result =
       FitWithProgress(files->input, options, load_s, registry, observer);
