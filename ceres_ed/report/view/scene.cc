@@ -1,0 +1,60 @@
+#include "ceres_ed/report/view/scene.h"
+
+#include <ceres_ed/geometry/bounding_box.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <map>
+
+namespace ceres_ed {
+
+std::vector<Eigen::Vector3d> PointsAt(const ViewSurface& surface, double at) {
+  if (!surface.motion) return surface.points;
+  const MotionParts parts = PartsAt(at, PlacementShareOf(surface));
+  std::vector<Eigen::Vector3d> moved(surface.points.size());
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    moved[i] = surface.motion->Move(surface.points[i], static_cast<int>(i), parts);
+  }
+  return moved;
+}
+
+double PlacementShareOf(const ViewSurface& surface) {
+  if (!surface.motion) return 0.0;
+  return surface.motion->PlacementShare(surface.points, Diagonal(surface.points));
+}
+
+SceneBall BallAround(const Scene& scene) {
+  std::vector<std::vector<Eigen::Vector3d>> shown;
+  for (const ViewPanel& panel : scene.panels) {
+    const ViewSurface& surface = scene.surfaces[panel.surface];
+    if (panel.at < 0.0) shown.push_back(PointsAt(surface, 0.0));
+    shown.push_back(PointsAt(surface, panel.at < 0.0 ? 1.0 : panel.at));
+  }
+  SceneBall ball;
+  Eigen::AlignedBox3d box;
+  for (const std::vector<Eigen::Vector3d>& points : shown) box.extend(BoundingBox(points));
+  if (box.isEmpty()) return ball;
+  ball.center = box.center();
+  double farthest = 0.0;
+  for (const std::vector<Eigen::Vector3d>& points : shown) {
+    for (const Eigen::Vector3d& point : points) {
+      farthest = std::max(farthest, (point - ball.center).norm());
+    }
+  }
+  if (farthest > 0.0) ball.radius = farthest;
+  return ball;
+}
+
+void SetRanges(Scene* scene) {
+  std::map<std::string, std::vector<const ScalarField*>> by_key;
+  for (const ViewSurface& surface : scene->surfaces) {
+    for (const ScalarField& field : surface.fields) by_key[field.key].push_back(&field);
+  }
+  std::map<std::string, FieldRange> ranges;
+  for (const auto& [key, fields] : by_key) ranges[key] = RangeOfFields(fields);
+  for (ViewSurface& surface : scene->surfaces) {
+    for (ScalarField& field : surface.fields) field.range = ranges[field.key];
+  }
+}
+
+}  // namespace ceres_ed
