@@ -30,6 +30,7 @@ const OptionTable<FitSettings>& FitSettingsRows() {
       Row(&S::warp, "warp", "JSON to write: the deformation, for ed_apply.").File(),
       Row(&S::graph, "graph", "Mesh to write: the fitted nodes and edges.").File(),
       Row(&S::report, "report", "JSON to write: the settings, errors and times of the fit.").File(),
+      Row(&S::html, "html", "HTML to write: the fit to look at in a browser.").File(),
       Row(&S::covariance,
           "covariance",
           "Mesh to write: covariances of points; true: only std_dev in OUT.")
@@ -87,8 +88,12 @@ Status CheckOutputNames(const FitSettings& settings) {
   for (const std::string& points : {settings.graph, settings.covariance}) {
     if (Status status = CheckHolds(points, PlyDocument()); !status.ok()) return status;
   }
-  const std::string outputs[] = {
-      settings.output, settings.warp, settings.graph, settings.report, settings.covariance};
+  const std::string outputs[] = {settings.output,
+                                 settings.warp,
+                                 settings.graph,
+                                 settings.report,
+                                 settings.covariance,
+                                 settings.html};
   for (const std::string& one : outputs) {
     int uses = 0;
     for (const std::string& other : outputs) uses += one == other ? 1 : 0;

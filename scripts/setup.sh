@@ -32,6 +32,8 @@ add_list() {
       # libceres-dev depends on SuiteSparse, Eigen, glog and gflags; the runtime of OpenBLAS can be linked.
       add g++ cmake ninja-build libceres-dev libeigen3-dev libsuitesparse-dev libgoogle-glog-dev libgflags-dev \
         libopenblas0-pthread libnanoflann-dev libspectra-dev nlohmann-json3-dev zlib1g-dev
+      # What the pages and pictures of results are made with; all of it goes into the programs.
+      add libjs-three libstb-dev fonts-dejavu-core
       ;;
     tracking)
       add_list fit
@@ -52,7 +54,8 @@ add_list() {
       # ITK judges displacement fields.
       add libinsighttoolkit5-dev
       add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy \
-        python3-build python3-pip python3-setuptools python3-venv python3-wheel
+        python3-build python3-pip python3-setuptools python3-venv python3-wheel chromium chromium-driver \
+        python3-selenium
       ;;
     lint) add clang-format clang-tidy ;;
     fuzz) add clang libclang-rt-14-dev ;;

@@ -174,6 +174,20 @@ TEST_F(EdFitTest, ReportsACommandThatRepeatsTheRun) {
   EXPECT_THAT(command, ::testing::HasSubstr(" --node_spacing=0.3"));
 }
 
+TEST_F(EdFitTest, WritesAPageOfTheFit) {
+  const std::string html = "--html=" + (dir_ / "fit.html");
+  ASSERT_EQ(FitPair({html}).exit_code, 0);
+  std::ifstream file(dir_ / "fit.html");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_TRUE(page.find("<title>") != std::string::npos);
+  EXPECT_TRUE(page.find("Good: nothing speaks against this result.") != std::string::npos);
+  EXPECT_LT(page.size(), 15U << 20U);
+  // That a page can't be written is said before the fit.
+  const ProgramResult failed = FitPair({"--html=/dev/null/fit.html"});
+  EXPECT_EQ(failed.exit_code, 2);
+  EXPECT_THAT(failed.err, ::testing::HasSubstr("/dev/null/fit.html"));
+}
+
 TEST_F(EdFitTest, ReportsTheNoiseOfTheTarget) {
   RingOptions dense;
   dense.columns = 72;

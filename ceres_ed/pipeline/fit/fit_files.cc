@@ -252,7 +252,8 @@ Status PrepareOutputs(const FitSettings& settings) {
                                   &settings.warp,
                                   &settings.graph,
                                   &settings.report,
-                                  &settings.covariance}) {
+                                  &settings.covariance,
+                                  &settings.html}) {
     if (path->empty()) continue;
     if (Status status = PrepareOutput(*path); !status.ok()) return status;
   }

@@ -1,6 +1,7 @@
 #include "ceres_ed/pipeline/fit/fit_run.h"
 
 #include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/fit/fit_picture.h>
 #include <ceres_ed/pipeline/fit/fit_report.h>
 #include <ceres_ed/pipeline/fit/fit_verdict.h>
 #include <ceres_ed/pipeline/fit/scale_setting.h>
@@ -58,8 +59,10 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
     run.write_s = timer.Seconds();
   }
   run.total_s = clock.Seconds();
-  if (!settings.report.empty()) {
-    Status status = WriteReport(settings.report, FitReport(run));
+  if (!settings.report.empty() || !settings.html.empty()) {
+    const nlohmann::ordered_json report = FitReport(run);
+    Status status = settings.report.empty() ? Status::Ok() : WriteReport(settings.report, report);
+    if (status.ok() && result.IsUsable()) status = WriteFitPictures(run, report);
     if (!status.ok()) return Outcome::BadInput(status);
   }
   if (!result.IsUsable()) return Outcome::NoResult(Status::Error(result.message));
@@ -165,7 +168,7 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
         ApplyScale(*scale, files->source.diagonal, files->target.diagonal, &options);
     if (!note.empty()) files->warnings.push_back(note);
   }
-  options.record_rounds = !settings.report.empty();
+  options.record_rounds = !settings.report.empty() || !settings.html.empty();
   const double load_s = clock.Seconds();
   const StatusOr<FitResult> result =
       FitWithProgress(files->input, options, load_s, registry, observer);

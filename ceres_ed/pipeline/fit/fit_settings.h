@@ -58,6 +58,7 @@ struct FitSettings {
   std::string graph;
   std::string report;
   std::string covariance;
+  std::string html;
   FailIf fail_if = FailIf::kNever;
   // The flags of the program, for the report.
   RunFlags flags;
