@@ -31,6 +31,8 @@ const OptionTable<FitSettings>& FitSettingsRows() {
       Row(&S::graph, "graph", "Mesh to write: the fitted nodes and edges.").File(),
       Row(&S::report, "report", "JSON to write: the settings, errors and times of the fit.").File(),
       Row(&S::html, "html", "HTML to write: the fit to look at in a browser.").File(),
+      Row(&S::png, "png", "PNG to write: the same views as a picture.").File(),
+      Row(&S::theme, "theme", "The ground of --png."),
       Row(&S::covariance,
           "covariance",
           "Mesh to write: covariances of points; true: only std_dev in OUT.")
@@ -93,7 +95,8 @@ Status CheckOutputNames(const FitSettings& settings) {
                                  settings.graph,
                                  settings.report,
                                  settings.covariance,
-                                 settings.html};
+                                 settings.html,
+                                 settings.png};
   for (const std::string& one : outputs) {
     int uses = 0;
     for (const std::string& other : outputs) uses += one == other ? 1 : 0;

@@ -1,4 +1,4 @@
-#include <ceres_ed/report/html/number_text.h>
+#include <ceres_ed/report/view/number_text.h>
 
 #include <cmath>
 #include <limits>

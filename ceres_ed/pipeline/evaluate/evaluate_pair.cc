@@ -4,8 +4,10 @@
 #include <ceres_ed/pipeline/evaluate/evaluate_run.h>
 #include <ceres_ed/pipeline/evaluate/pair_report.h>
 #include <ceres_ed/pipeline/intention.h>
+#include <ceres_ed/pipeline/look.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/pipeline/run_command.h>
 #include <ceres_ed/preflight/compare_sizes.h>
 #include <ceres_ed/version.h>
 
@@ -56,7 +58,10 @@ StatusOr<CalibrationFigures> Calibrate(const EvalSettings& settings,
 }  // namespace
 
 Outcome RunEvaluation(const EvalSettings& settings, EvaluateObserver* observer) {
-  for (const std::string& output : {settings.report, settings.error_ply}) {
+  const Status possible = CheckLookOutputs({settings.html, settings.png});
+  if (!possible.ok()) return Outcome::BadInput(possible);
+  for (const std::string& output :
+       {settings.report, settings.error_ply, settings.html, settings.png}) {
     if (output.empty()) continue;
     if (Status status = PrepareOutput(output); !status.ok()) return Outcome::BadInput(status);
   }
@@ -91,16 +96,30 @@ Outcome EvaluatePair(const EvalSettings& settings, EvaluateObserver* observer) {
     calibration = *std::move(measured);
   }
 
+  nlohmann::ordered_json report = {{"program", "ed_eval"}, {"version", kVersion}};
+  report["result"] = {{"path", settings.fitted}, {"points", result.size()}};
+  report["target"] = {{"path", settings.target}, {"points", target.size()}};
+  report.update(EvaluationReport(*evaluation));
+  if (calibration) report["calibration"] = CalibrationReport(*calibration);
+  report["flags"] = FlagsReport(settings.flags);
+  report["flags_given"] = GivenFlagsReport(settings.flags);
+  report["command"] = CommandText("ed_eval", {settings.fitted, settings.target}, settings.flags);
   if (!settings.report.empty()) {
-    nlohmann::ordered_json report = {{"program", "ed_eval"}, {"version", kVersion}};
-    report["result"] = {{"path", settings.fitted}, {"points", result.size()}};
-    report["target"] = {{"path", settings.target}, {"points", target.size()}};
-    report.update(EvaluationReport(*evaluation));
-    if (calibration) report["calibration"] = CalibrationReport(*calibration);
-    report["flags"] = FlagsReport(settings.flags);
     if (Status status = WriteReport(settings.report, report); !status.ok()) {
       return Outcome::BadInput(status);
     }
+  }
+  if (!settings.html.empty() || !settings.png.empty()) {
+    FitParts parts;
+    parts.source = settings.source.empty() ? nullptr : &source;
+    parts.target = &target;
+    parts.result = &result.points;
+    parts.triangles = source.HasTriangles() ? &source.triangles : &result.triangles;
+    parts.truth = truth != nullptr ? &truth->points : nullptr;
+    // The diagonal stands with the target in the report of a fit.
+    report["target"]["diagonal"] = evaluation->diagonal;
+    Status status = WriteFitLook({settings.html, settings.png}, report, MakeFitView(parts));
+    if (!status.ok()) return Outcome::BadInput(status);
   }
   if (!settings.error_ply.empty()) {
     const std::vector<double> errors =

@@ -10,6 +10,7 @@
 #include <ceres_ed/pipeline/check/check_files.h>
 #include <ceres_ed/pipeline/fit/stray_vertices.h>
 #include <ceres_ed/pipeline/intention.h>
+#include <ceres_ed/pipeline/look.h>
 #include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/preflight/repair.h>
 
@@ -248,12 +249,15 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
 }
 
 Status PrepareOutputs(const FitSettings& settings) {
+  const Status possible = CheckLookOutputs({settings.html, settings.png, settings.theme});
+  if (!possible.ok()) return possible;
   for (const std::string* path : {&settings.output,
                                   &settings.warp,
                                   &settings.graph,
                                   &settings.report,
                                   &settings.covariance,
-                                  &settings.html}) {
+                                  &settings.html,
+                                  &settings.png}) {
     if (path->empty()) continue;
     if (Status status = PrepareOutput(*path); !status.ok()) return status;
   }

@@ -1,7 +1,6 @@
 #include "ceres_ed/pipeline/fit/fit_picture.h"
 
-#include <ceres_ed/io/atomic_file.h>
-#include <ceres_ed/report/html/fit_page.h>
+#include <ceres_ed/pipeline/look.h>
 #include <ceres_ed/report/view/fit_view.h>
 
 #include <string>
@@ -35,9 +34,9 @@ FitParts PartsOf(const FitRun& run) {
 
 Status WriteFitPictures(const FitRun& run, const nlohmann::ordered_json& report) {
   const FitSettings& settings = *run.settings;
-  if (settings.html.empty()) return Status::Ok();
-  const FitView view = MakeFitView(PartsOf(run));
-  return WriteFileAtomically(settings.html, FitPage(report, view, ""));
+  if (!settings.IsLookedAt()) return Status::Ok();
+  return WriteFitLook(
+      {settings.html, settings.png, settings.theme}, report, MakeFitView(PartsOf(run)));
 }
 
 }  // namespace ceres_ed

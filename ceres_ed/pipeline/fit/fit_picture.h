@@ -1,4 +1,4 @@
-// What there is to look at of a fit that has just run: its page.
+// What there is to look at of a fit that has just run: its page and its picture.
 #ifndef CERES_ED_PIPELINE_FIT_FIT_PICTURE_H_
 #define CERES_ED_PIPELINE_FIT_FIT_PICTURE_H_
 
@@ -9,8 +9,8 @@
 
 namespace ceres_ed {
 
-// Writes the page of a usable fit to settings.html, if it is requested. `report` is FitReport() of
-// the run. Each file is written atomically.
+// Writes the page and the picture of a usable fit, as far as they are requested. `report` is
+// FitReport() of the run. Each file is written atomically.
 Status WriteFitPictures(const FitRun& run, const nlohmann::ordered_json& report);
 
 }  // namespace ceres_ed

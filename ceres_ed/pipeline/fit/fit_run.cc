@@ -59,7 +59,7 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
     run.write_s = timer.Seconds();
   }
   run.total_s = clock.Seconds();
-  if (!settings.report.empty() || !settings.html.empty()) {
+  if (!settings.report.empty() || settings.IsLookedAt()) {
     const nlohmann::ordered_json report = FitReport(run);
     Status status = settings.report.empty() ? Status::Ok() : WriteReport(settings.report, report);
     if (status.ok() && result.IsUsable()) status = WriteFitPictures(run, report);

@@ -4,6 +4,7 @@
 
 #include <ceres_ed/pipeline/run_flag.h>
 #include <ceres_ed/registration/fit_options.h>
+#include <ceres_ed/report/picture/theme.h>
 #include <ceres_ed/util/named_values.h>
 
 #include <array>
@@ -59,9 +60,14 @@ struct FitSettings {
   std::string report;
   std::string covariance;
   std::string html;
+  std::string png;
+  Theme theme = Theme::kLight;
   FailIf fail_if = FailIf::kNever;
   // The flags of the program, for the report.
   RunFlags flags;
+
+  // Whether a page or a picture is requested.
+  bool IsLookedAt() const { return !html.empty() || !png.empty(); }
 };
 
 }  // namespace ceres_ed

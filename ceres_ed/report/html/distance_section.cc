@@ -1,8 +1,8 @@
 #include "ceres_ed/report/html/distance_section.h"
 
 #include <ceres_ed/evaluation/pair_evaluation.h>
-#include <ceres_ed/report/html/number_text.h>
 #include <ceres_ed/report/html/svg_plot.h>
+#include <ceres_ed/report/view/number_text.h>
 
 #include <string>
 #include <utility>

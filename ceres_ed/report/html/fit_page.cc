@@ -2,12 +2,12 @@
 
 #include <ceres_ed/report/html/about.h>
 #include <ceres_ed/report/html/distance_section.h>
-#include <ceres_ed/report/html/number_text.h>
 #include <ceres_ed/report/html/page.h>
 #include <ceres_ed/report/html/report_json.h>
 #include <ceres_ed/report/html/run_sections.h>
 #include <ceres_ed/report/html/svg_plot.h>
 #include <ceres_ed/report/html/viewer.h>
+#include <ceres_ed/report/view/number_text.h>
 
 #include <map>
 #include <utility>

@@ -1,6 +1,6 @@
 #include "ceres_ed/report/html/report_json.h"
 
-#include <ceres_ed/report/html/number_text.h>
+#include <ceres_ed/report/view/number_text.h>
 
 #include <limits>
 

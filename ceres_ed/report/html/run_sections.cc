@@ -1,8 +1,8 @@
 #include "ceres_ed/report/html/run_sections.h"
 
-#include <ceres_ed/report/html/number_text.h>
 #include <ceres_ed/report/html/report_json.h>
 #include <ceres_ed/report/html/svg_plot.h>
+#include <ceres_ed/report/view/number_text.h>
 
 #include <set>
 #include <string>

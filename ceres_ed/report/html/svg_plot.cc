@@ -1,7 +1,7 @@
 #include "ceres_ed/report/html/svg_plot.h"
 
 #include <ceres_ed/report/html/escape.h>
-#include <ceres_ed/report/html/number_text.h>
+#include <ceres_ed/report/view/number_text.h>
 
 #include <algorithm>
 #include <cmath>

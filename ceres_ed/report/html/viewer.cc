@@ -94,6 +94,11 @@ std::string CountSentence(const ViewSurface& surface) {
 }  // namespace
 
 void AddViewer(const Scene& scene, const std::string& picture_png, HtmlPage* page) {
+  if (scene.panels.empty()) {
+    page->Paragraph("There is nothing to show.");
+    for (const std::string& note : scene.notes) page->Notice("note", "Note.", note);
+    return;
+  }
   std::string picture;
   if (!picture_png.empty()) {
     picture = "<img alt=\"" + EscapeHtml("Picture of the surfaces") +
@@ -123,6 +128,9 @@ void AddViewer(const Scene& scene, const std::string& picture_png, HtmlPage* pag
   }
   std::string counts = "Shown:";
   for (const ViewSurface& surface : scene.surfaces) counts += " " + CountSentence(surface);
+  if (!scene.graph.empty()) {
+    counts += " Nodes of the graph: blue are PR, orange are PI, grey are inside the body.";
+  }
   counts +=
       " Positions and figures in the view are rounded to 16 bits (1/65535 of their range); all "
       "tables and plots are of all points.";

@@ -176,9 +176,12 @@ void FitViewBuilder::AddGraph() {
   const DeformationGraph& graph = parts_.warp->graph;
   ViewGraph& shown = view_.scene.graph;
   for (int j = 0; j < graph.num_nodes(); ++j) {
-    const bool is_pr = parts_.point_relevant != nullptr && (*parts_.point_relevant)[j] != 0;
-    const bool is_inner = j >= graph.num_surface_nodes();
-    shown.kinds.push_back(is_inner ? NodeKind::kInner : is_pr ? NodeKind::kPr : NodeKind::kPi);
+    NodeKind kind = NodeKind::kUnknown;
+    if (parts_.point_relevant != nullptr) {
+      kind = (*parts_.point_relevant)[j] != 0 ? NodeKind::kPr : NodeKind::kPi;
+    }
+    if (j >= graph.num_surface_nodes()) kind = NodeKind::kInner;
+    shown.kinds.push_back(kind);
   }
   for (const GraphEdge& edge : graph.edges()) {
     shown.edges.emplace_back(std::min(edge.from, edge.to), std::max(edge.from, edge.to));

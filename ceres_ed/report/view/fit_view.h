@@ -32,7 +32,7 @@ struct FitParts {
   // The deformation, and the binding of the source's points to its nodes.
   const Warp* warp = nullptr;
   const Skinning* skinning = nullptr;
-  // 1 for nodes that data reach.
+  // 1 for nodes that data reach; null if it is not known.
   const std::vector<char>* point_relevant = nullptr;
   // target_from_source, if it is known without a warp.
   const Similarity* rigid = nullptr;

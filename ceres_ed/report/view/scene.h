@@ -20,6 +20,8 @@ enum class NodeKind : unsigned char {
   kPr = 1,
   // Inside the body.
   kInner = 2,
+  // Either PR or PI; it was not written down.
+  kUnknown = 3,
 };
 
 // The graph of a moving surface; its nodes are those of the surface's motion.

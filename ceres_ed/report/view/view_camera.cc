@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 
+#include <Eigen/Geometry>
+
 namespace ceres_ed {
 namespace {
 
@@ -25,6 +27,8 @@ Eigen::Vector3d MeanNormal(const ViewSurface& surface) {
 ViewCamera ChooseCamera(const Scene& scene) {
   constexpr double kOneSided = 0.3;
   constexpr double kSteep = 0.9;
+  constexpr double kAside = 35.0 * M_PI / 180.0;
+  bool is_one_sided = false;
   ViewCamera camera;
   camera.from = Eigen::Vector3d(0.45, 0.35, 1.0).normalized();
   for (const ViewSurface& surface : scene.surfaces) {
@@ -32,10 +36,12 @@ ViewCamera ChooseCamera(const Scene& scene) {
     const Eigen::Vector3d normal = MeanNormal(surface);
     if (normal.norm() > kOneSided) {
       camera.from = normal.normalized();
+      is_one_sided = true;
       break;
     }
   }
   if (std::abs(camera.from.y()) > kSteep) camera.up = Eigen::Vector3d::UnitZ();
+  if (is_one_sided) camera.from = Eigen::AngleAxisd(kAside, camera.up) * camera.from;
   return camera;
 }
 

@@ -269,7 +269,7 @@
         this.graphLines.frustumCulled = false;
         this.graph.add(this.graphLines);
         const kinds = numbersOf(data.graph.kinds);
-        [[1, 0x0072b2, 7], [0, 0xe69f00, 5], [2, 0x888888, 4]].forEach(([kind, color, size]) => {
+        [[1, 0x0072b2, 7], [0, 0xe69f00, 5], [2, 0x888888, 4], [3, 0x3f7fbf, 6]].forEach(([kind, color, size]) => {
           const index = [];
           kinds.forEach((k, j) => { if (k === kind) index.push(j); });
           if (index.length === 0) return;

@@ -1,6 +1,6 @@
 // Numbers as people read them.
-#ifndef CERES_ED_REPORT_HTML_NUMBER_TEXT_H_
-#define CERES_ED_REPORT_HTML_NUMBER_TEXT_H_
+#ifndef CERES_ED_REPORT_VIEW_NUMBER_TEXT_H_
+#define CERES_ED_REPORT_VIEW_NUMBER_TEXT_H_
 
 #include <string>
 #include <vector>
@@ -20,4 +20,4 @@ std::vector<double> RoundTicks(double low, double high, int count);
 
 }  // namespace ceres_ed
 
-#endif  // CERES_ED_REPORT_HTML_NUMBER_TEXT_H_
+#endif  // CERES_ED_REPORT_VIEW_NUMBER_TEXT_H_

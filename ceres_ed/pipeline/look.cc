@@ -1,0 +1,77 @@
+#include "ceres_ed/pipeline/look.h"
+
+#include <ceres_ed/io/atomic_file.h>
+#include <ceres_ed/report/html/fit_page.h>
+#include <ceres_ed/report/html/report_json.h>
+#include <ceres_ed/report/picture/png.h>
+#include <ceres_ed/report/picture/scene_picture.h>
+
+namespace ceres_ed {
+namespace {
+
+// Pages have a picture of this width, for where they cannot show the view.
+constexpr int kPageWidth = 1100;
+
+// Returns the verdict with its first reason.
+std::string VerdictLine(const nlohmann::ordered_json& report) {
+  const std::string grade = TextOf(report, {"verdict", "grade"});
+  if (grade.empty()) return "";
+  const nlohmann::ordered_json& reasons = MemberOf(report, {"verdict", "reasons"});
+  const std::string reason =
+      reasons.is_array() && !reasons.empty() ? TextOf(reasons[0], {"text"}) : "";
+  return "verdict: " + grade + (reason.empty() ? "" : ", " + reason);
+}
+
+Status WritePicture(const std::string& path, const Scene& scene, const PictureOptions& options) {
+  const std::string bytes = EncodePng(DrawScene(scene, options));
+  if (bytes.empty()) return Status::Error(path + ": there is nothing to draw");
+  return WriteFileAtomically(path, bytes);
+}
+
+// Returns the picture that a page shows where it cannot show the view; empty without pictures.
+std::string PictureOfPage(const Scene& scene, PictureOptions options) {
+  options.theme = Theme::kLight;
+  options.width = kPageWidth;
+  options.title.clear();
+  options.subtitle.clear();
+  return HasPictures() ? EncodePng(DrawScene(scene, options)) : "";
+}
+
+}  // namespace
+
+Status CheckLookOutputs(const LookOutputs& outputs) {
+  if (outputs.png.empty() || HasPictures()) return Status::Ok();
+  return Status::Error(outputs.png + ": " + kNoPictures);
+}
+
+Status WriteFitLook(const LookOutputs& outputs,
+                    const nlohmann::ordered_json& report,
+                    const FitView& view) {
+  PictureOptions options;
+  options.title = FitTitle(report);
+  options.subtitle = VerdictLine(report);
+  if (!outputs.png.empty()) {
+    options.theme = outputs.theme;
+    Status status = WritePicture(outputs.png, view.scene, options);
+    if (!status.ok()) return status;
+  }
+  if (outputs.html.empty()) return Status::Ok();
+  return WriteFileAtomically(outputs.html,
+                             FitPage(report, view, PictureOfPage(view.scene, options)));
+}
+
+Status WriteComparison(const LookOutputs& outputs, const std::vector<ComparedRun>& runs) {
+  const Scene scene = SceneOfRuns(runs);
+  PictureOptions options;
+  options.title = std::to_string(runs.size()) + " runs compared";
+  if (!outputs.png.empty()) {
+    options.theme = outputs.theme;
+    Status status = WritePicture(outputs.png, scene, options);
+    if (!status.ok()) return status;
+  }
+  if (outputs.html.empty()) return Status::Ok();
+  return WriteFileAtomically(outputs.html,
+                             ComparisonPage(runs, scene, PictureOfPage(scene, options)));
+}
+
+}  // namespace ceres_ed

@@ -1,0 +1,38 @@
+// Writes what there is to look at of a run: a page, a picture.
+#ifndef CERES_ED_PIPELINE_LOOK_H_
+#define CERES_ED_PIPELINE_LOOK_H_
+
+#include <ceres_ed/report/html/comparison_page.h>
+#include <ceres_ed/report/picture/theme.h>
+#include <ceres_ed/report/view/fit_view.h>
+#include <ceres_ed/util/status.h>
+
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+namespace ceres_ed {
+
+// Where to; an empty path is not written.
+struct LookOutputs {
+  std::string html;
+  std::string png;
+  Theme theme = Theme::kLight;
+};
+
+// Returns an error if an output is requested that this build can not make.
+Status CheckLookOutputs(const LookOutputs& outputs);
+
+// Writes page and picture of a fit, or of the evaluation of one. `report` is what report.json has
+// of it. Each file is written atomically. The error names the path.
+Status WriteFitLook(const LookOutputs& outputs,
+                    const nlohmann::ordered_json& report,
+                    const FitView& view);
+
+// Writes page and picture of several runs beside each other.
+Status WriteComparison(const LookOutputs& outputs, const std::vector<ComparedRun>& runs);
+
+}  // namespace ceres_ed
+
+#endif  // CERES_ED_PIPELINE_LOOK_H_
