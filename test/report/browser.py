@@ -6,7 +6,7 @@ class Missing(Exception):
     """There is no browser; the text says what is missing."""
 
 
-def open_browser(width=1200, height=900, is_phone=False, is_dark=False, scripts=True):
+def open_browser(width=1200, height=900, is_phone=False, is_dark=False, has_webgl=True):
     """Returns a driver of headless Chromium with WebGL by software."""
     try:
         from selenium import webdriver
@@ -21,8 +21,8 @@ def open_browser(width=1200, height=900, is_phone=False, is_dark=False, scripts=
                      "--enable-unsafe-swiftshader", "--hide-scrollbars", "--disable-dev-shm-usage",
                      f"--window-size={width},{height}"):
         options.add_argument(argument)
-    if not scripts:
-        options.add_experimental_option("prefs", {"profile.managed_default_content_settings.javascript": 2})
+    if not has_webgl:
+        options.add_argument("--disable-3d-apis")
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     service = webdriver.chrome.service.Service(driver)
     browser = webdriver.Chrome(options=options, service=service)

@@ -1,10 +1,13 @@
 #include "small_fit.h"
 
 #include <ceres_ed/report/html/assets.h>
+#include <ceres_ed/report/html/comparison_page.h>
 #include <ceres_ed/report/html/fit_page.h>
 #include <ceres_ed/report/html/page.h>
+#include <ceres_ed/report/html/viewer.h>
 
 #include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -151,6 +154,44 @@ TEST(FitPage, ThreeJsComesWithItsLicence) {
   } else {
     EXPECT_TRUE(Has(page, "Permission is hereby granted"));
   }
+}
+
+TEST(Viewer, WithoutThreeJsThereIsAPictureAndAWordAboutIt) {
+  HtmlPage page("");
+  AddViewer(MakeFitView(MakeSmallFit().Parts()).scene, "picture", &page, /*has_three=*/false);
+  const std::string html = page.Finish();
+  EXPECT_TRUE(Has(html, "built without three.js (Debian&#39;s libjs-three)"));
+  EXPECT_TRUE(Has(html, "data:image/png;base64,cGljdHVyZQ=="));
+  EXPECT_FALSE(Has(html, "<canvas"));
+  EXPECT_FALSE(Has(html, "application/json"));
+}
+
+TEST(Viewer, NothingToShowIsSaid) {
+  HtmlPage page("");
+  Scene scene;
+  scene.notes = {"The result is not shown: it is lost."};
+  AddViewer(scene, "", &page);
+  EXPECT_TRUE(Has(page.Finish(), "There is nothing to show."));
+  EXPECT_TRUE(Has(page.Finish(), "it is lost."));
+}
+
+TEST(ComparisonPage, HasTheFiguresAndTheFlagsThatDiffer) {
+  std::vector<ComparedRun> runs;
+  for (const double weight : {1.0, 20.0}) {
+    ordered_json report = {{"verdict", {{"grade", "good"}}}, {"nodes", {{"total", 5}}}};
+    report["flags"] = {{"w_reg", weight}, {"rings", 2}};
+    runs.push_back(
+        {"run <" + std::to_string(int(weight)) + ">", report, MakeFitView(MakeSmallFit().Parts())});
+  }
+  const Scene scene = SceneOfRuns(runs);
+  ASSERT_EQ(scene.panels.size(), 3U) << "two results and the target";
+  EXPECT_EQ(scene.surfaces[0].Find("truth")->range.high,
+            scene.surfaces[1].Find("truth")->range.high);
+  const std::string page = ComparisonPage(runs, scene, "");
+  EXPECT_TRUE(Has(page, "<td>--w_reg</td><td>1.0</td><td>20.0</td>"));
+  EXPECT_FALSE(Has(page, "--rings"));
+  EXPECT_TRUE(Has(page, "run &lt;20&gt;"));
+  EXPECT_FALSE(Has(page, "run <20>"));
 }
 
 // A script that ends its own element would be cut there.

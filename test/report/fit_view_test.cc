@@ -128,7 +128,7 @@ TEST(ViewCamera, LooksAtTheSideThatATargetShows) {
   scene.surfaces.push_back(MakeViewSurface("target", SquareCloud(4), {}, 1000, {}, &kept));
   scene.panels.push_back({"Target", 0, 1.0, false, true});
   const ViewCamera camera = ChooseCamera(scene);
-  EXPECT_NEAR(camera.from.z(), std::cos(35.0 * M_PI / 180.0), 1e-12);
+  EXPECT_NEAR(camera.from.z(), std::cos(50.0 * M_PI / 180.0), 1e-12);
   EXPECT_NEAR(camera.from.norm(), 1.0, 1e-12);
   EXPECT_EQ(camera.from.y(), 0.0);
 }

@@ -85,7 +85,7 @@ HtmlTable FlagsThatDiffer(const std::vector<ComparedRun>& runs) {
     std::vector<std::string> row = {"--" + name};
     bool is_equal = true;
     for (const ComparedRun& run : runs) {
-      row.push_back(ValueText(MemberOf(run.report, {"flags", name.c_str()}), 6));
+      row.push_back(FlagText(MemberOf(run.report, {"flags", name.c_str()})));
       is_equal = is_equal && row.back() == row[1];
     }
     if (!is_equal) table.rows.push_back(std::move(row));

@@ -30,6 +30,11 @@ std::string TextOf(const ordered_json& report, ReportPath path) {
   return member.is_string() ? member.get<std::string>() : std::string();
 }
 
+std::string FlagText(const ordered_json& value) {
+  if (value.is_boolean()) return value.get<bool>() ? "true" : "false";
+  return value.is_number() ? value.dump() : ValueText(value);
+}
+
 std::string ValueText(const ordered_json& value, int digits) {
   if (value.is_null()) return "-";
   if (value.is_string()) return value.get<std::string>();

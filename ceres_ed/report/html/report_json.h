@@ -21,6 +21,9 @@ double NumberOf(const nlohmann::ordered_json& report, ReportPath path);
 // Returns a text; empty if there is none.
 std::string TextOf(const nlohmann::ordered_json& report, ReportPath path);
 
+// Returns the value of a flag: a number with the fewest digits from which the same number is read.
+std::string FlagText(const nlohmann::ordered_json& value);
+
 // Returns any value as people read it: texts as they are, numbers with `digits` digits, yes or no,
 // and "-" for null.
 std::string ValueText(const nlohmann::ordered_json& value, int digits = 4);

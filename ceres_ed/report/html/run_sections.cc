@@ -102,7 +102,7 @@ void AddFlags(const ordered_json& report, HtmlPage* page) {
   HtmlTable table = {"All flags", {"flag", "value", "given"}, {}, 3};
   for (const auto& [name, value] : flags.items()) {
     table.rows.push_back(
-        {"--" + name, ValueText(value, 6), given.count(name) > 0 ? "given" : "default"});
+        {"--" + name, FlagText(value), given.count(name) > 0 ? "given" : "default"});
   }
   page->FoldedTable("All " + std::to_string(table.rows.size()) + " flags", table);
 }

@@ -1,6 +1,5 @@
 #include "ceres_ed/report/html/viewer.h"
 
-#include <ceres_ed/report/html/assets.h>
 #include <ceres_ed/report/html/base64.h>
 #include <ceres_ed/report/html/escape.h>
 #include <ceres_ed/report/html/scene_data.h>
@@ -93,7 +92,7 @@ std::string CountSentence(const ViewSurface& surface) {
 
 }  // namespace
 
-void AddViewer(const Scene& scene, const std::string& picture_png, HtmlPage* page) {
+void AddViewer(const Scene& scene, const std::string& picture_png, HtmlPage* page, bool has_three) {
   if (scene.panels.empty()) {
     page->Paragraph("There is nothing to show.");
     for (const std::string& note : scene.notes) page->Notice("note", "Note.", note);
@@ -105,7 +104,7 @@ void AddViewer(const Scene& scene, const std::string& picture_png, HtmlPage* pag
               "\" src=\"data:image/png;base64," + Base64(picture_png) + "\">\n";
   }
   const std::string description = EscapeHtml(Describe(scene));
-  if (ThreeJs().empty()) {
+  if (!has_three) {
     page->Notice(
         "note",
         "No 3-D view.",

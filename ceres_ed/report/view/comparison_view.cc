@@ -8,7 +8,7 @@ namespace ceres_ed {
 Scene CompareScenes(const std::vector<const Scene*>& scenes,
                     const std::vector<std::string>& names) {
   Scene all;
-  bool has_target = false;
+  const ViewSurface* target = nullptr;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     if (scenes[i]->surfaces.empty()) continue;
     ViewSurface result = scenes[i]->surfaces[0];
@@ -18,11 +18,11 @@ Scene CompareScenes(const std::vector<const Scene*>& scenes,
     all.panels.push_back({names[i], static_cast<int>(all.surfaces.size()), 1.0, false, true});
     all.surfaces.push_back(std::move(result));
     if (all.first_field.empty()) all.first_field = scenes[i]->first_field;
-    if (!has_target && scenes[i]->surfaces.size() > 1) {
-      has_target = true;
-      all.panels.push_back({"Target", static_cast<int>(all.surfaces.size()), 1.0, false, false});
-      all.surfaces.push_back(scenes[i]->surfaces[1]);
-    }
+    if (target == nullptr && scenes[i]->surfaces.size() > 1) target = &scenes[i]->surfaces[1];
+  }
+  if (target != nullptr) {
+    all.panels.push_back({"Target", static_cast<int>(all.surfaces.size()), 1.0, false, false});
+    all.surfaces.push_back(*target);
   }
   SetRanges(&all);
   return all;

@@ -27,7 +27,7 @@ Eigen::Vector3d MeanNormal(const ViewSurface& surface) {
 ViewCamera ChooseCamera(const Scene& scene) {
   constexpr double kOneSided = 0.3;
   constexpr double kSteep = 0.9;
-  constexpr double kAside = 35.0 * M_PI / 180.0;
+  constexpr double kAside = 50.0 * M_PI / 180.0;
   bool is_one_sided = false;
   ViewCamera camera;
   camera.from = Eigen::Vector3d(0.45, 0.35, 1.0).normalized();

@@ -18,7 +18,7 @@ struct ViewCamera {
 };
 
 // Returns the camera of a scene. If a surface that stands still, such as a target, shows one side
-// only (its normals have a mean of more than 0.3), this side is seen, turned by 35 degrees so that
+// only (its normals have a mean of more than 0.3), this side is seen, turned by 50 degrees so that
 // something of the other side is seen, too. Otherwise the scene is seen from the front, right and
 // above. y is upwards, or z if the eye is on the y axis.
 ViewCamera ChooseCamera(const Scene& scene);
