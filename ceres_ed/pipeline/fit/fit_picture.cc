@@ -6,11 +6,8 @@
 #include <string>
 
 namespace ceres_ed {
-namespace {
 
-FitParts PartsOf(const FitRun& run) {
-  const FitInput& input = run.files->input;
-  const FitResult& result = *run.result;
+FitParts PartsOfFit(const FitInput& input, const FitResult& result, const std::vector<int>& rows) {
   FitParts parts;
   parts.source = &input.source;
   parts.target = input.target.empty() ? nullptr : &input.target;
@@ -18,25 +15,27 @@ FitParts PartsOf(const FitRun& run) {
   parts.triangles = &input.source.triangles;
   parts.warp = &result.warp;
   parts.skinning = &result.skinning;
-  parts.point_relevant = &result.point_relevant;
+  // A fit that was stopped early knows nothing of its nodes.
+  const bool has_nodes =
+      static_cast<int>(result.point_relevant.size()) == result.warp.graph.num_nodes();
+  parts.point_relevant = has_nodes ? &result.point_relevant : nullptr;
   if (!result.uncertainty.covariances.empty()) {
     parts.std_dev = result.uncertainty.StandardDeviations();
   }
-  parts.rows = run.files->vertex_of_point;
+  parts.rows = rows;
   for (const Landmark& landmark : input.landmarks) {
-    const int row = run.files->vertex_of_point[landmark.point];
+    const int row = rows.empty() ? landmark.point : rows[landmark.point];
     parts.landmarks.push_back({"vertex " + std::to_string(row), landmark});
   }
   return parts;
 }
 
-}  // namespace
-
 Status WriteFitPictures(const FitRun& run, const nlohmann::ordered_json& report) {
   const FitSettings& settings = *run.settings;
   if (!settings.IsLookedAt()) return Status::Ok();
-  return WriteFitLook(
-      {settings.html, settings.png, settings.theme}, report, MakeFitView(PartsOf(run)));
+  const FitView view =
+      MakeFitView(PartsOfFit(run.files->input, *run.result, run.files->vertex_of_point));
+  return WriteFitLook({settings.html, settings.png, settings.theme}, report, view);
 }
 
 }  // namespace ceres_ed

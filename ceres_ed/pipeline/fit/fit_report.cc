@@ -1,8 +1,10 @@
 #include "ceres_ed/pipeline/fit/fit_report.h"
 
+#include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 #include <ceres_ed/pipeline/check/check_files.h>
 #include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/fit/fit_verdict.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/pipeline/run_command.h>
 #include <ceres_ed/version.h>
@@ -175,6 +177,16 @@ ordered_json DisplacementReport(const FitRun& run) {
   return {{"mean", points.empty() ? 0.0 : sum / static_cast<double>(points.size())}, {"max", max}};
 }
 
+ordered_json StagesReport(const FitTimes& times) {
+  return {{"rigid", times.rigid},
+          {"prepare", times.prepare},
+          {"graph", times.graph},
+          {"associate", times.associate},
+          {"build", times.build},
+          {"solve", times.solve},
+          {"finish", times.finish}};
+}
+
 ordered_json TimeReport(const FitRun& run) {
   const FitTimes& times = run.result->times;
   const bool has_levels = run.settings->options.strategy.mode != SolveMode::kBatch;
@@ -268,6 +280,23 @@ ordered_json FitReport(const FitRun& run) {
       {"command",
        CommandText("ed_fit", {run.settings->source, run.settings->target}, run.settings->flags)},
       {"backend", BackendReport()}};
+}
+
+ordered_json FitResultReport(const FitInput& input, const FitResult& result) {
+  const Verdict verdict = JudgeFit({&result,
+                                    Diagonal(input.source.points),
+                                    Diagonal(input.target.points),
+                                    MeasureLandmarks(input, result).rms});
+  return {{"status", NameOf(result.status)},
+          {"message", result.message},
+          {"nodes", NodesReport(result)},
+          {"inliers", result.matches.inliers},
+          {"energy", EnergyReport(result)},
+          {"verdict", VerdictReport(verdict)},
+          {"unmatched", UnmatchedReport(result.evidence)},
+          {"covariance", CovarianceReport(result.uncertainty)},
+          {"time_s", StagesReport(result.times)},
+          {"warnings", result.warnings}};
 }
 
 }  // namespace ceres_ed
