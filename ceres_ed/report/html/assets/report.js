@@ -213,6 +213,15 @@
     return out;
   };
 
+  // A round dot, for points that are marked.
+  const dot = document.createElement('canvas');
+  dot.width = dot.height = 32;
+  const pen = dot.getContext('2d');
+  pen.fillStyle = '#fff';
+  pen.arc(16, 16, 15, 0, 2 * Math.PI);
+  pen.fill();
+  const round = {map: new THREE.CanvasTexture(dot), alphaTest: 0.5, sizeAttenuation: false};
+
   class Panel {
     constructor(data, number) {
       this.data = data;
@@ -231,7 +240,9 @@
       if (this.hasFaces) {
         this.geometry.setIndex(new THREE.BufferAttribute(this.surface.faces, 1));
         this.material = new THREE.MeshLambertMaterial(
-            {vertexColors: THREE.VertexColors, side: THREE.DoubleSide});
+            {vertexColors: THREE.VertexColors, side: THREE.DoubleSide,
+             // Edges and graph, which lie on the surface, are seen.
+             polygonOffset: true, polygonOffsetFactor: 2, polygonOffsetUnits: 8});
         this.body = new THREE.Mesh(this.geometry, this.material);
         this.wire = new THREE.Mesh(this.geometry, new THREE.MeshBasicMaterial(
             {wireframe: true, transparent: true, opacity: 0.3, color: 0x000000}));
@@ -244,7 +255,7 @@
       }
       this.scene.add(this.body);
       this.marker = new THREE.Points(new THREE.BufferGeometry(), new THREE.PointsMaterial(
-          {size: 11, sizeAttenuation: false, depthTest: false, color: 0xff00ff}));
+          {...round, size: 11, depthTest: false, color: 0xff00ff}));
       this.marker.geometry.setAttribute('position', new THREE.BufferAttribute(new Float32Array(3), 3));
       this.marker.visible = false;
       this.marker.frustumCulled = false;
@@ -265,11 +276,11 @@
         edges.setAttribute('position', this.nodePosition);
         edges.setIndex(new THREE.BufferAttribute(numbersOf(data.graph.edges), 1));
         this.graphLines = new THREE.LineSegments(edges, new THREE.LineBasicMaterial(
-            {color: 0x777777, transparent: true, opacity: 0.6}));
+            {color: 0x888888}));
         this.graphLines.frustumCulled = false;
         this.graph.add(this.graphLines);
         const kinds = numbersOf(data.graph.kinds);
-        [[1, 0x0072b2, 7], [0, 0xe69f00, 5], [2, 0x888888, 4], [3, 0x3f7fbf, 6]].forEach(([kind, color, size]) => {
+        [[1, 0x0072b2, 9], [0, 0xe69f00, 8], [2, 0x888888, 6], [3, 0x3f7fbf, 8]].forEach(([kind, color, size]) => {
           const index = [];
           kinds.forEach((k, j) => { if (k === kind) index.push(j); });
           if (index.length === 0) return;
@@ -277,7 +288,7 @@
           nodes.setAttribute('position', this.nodePosition);
           nodes.setIndex(index);
           const dots = new THREE.Points(nodes, new THREE.PointsMaterial(
-              {color, size, sizeAttenuation: false}));
+              {...round, color, size}));
           dots.frustumCulled = false;
           this.graph.add(dots);
         });
@@ -293,7 +304,7 @@
         for (const object of [
           new THREE.LineSegments(lines, new THREE.LineBasicMaterial({color: 0xd55e00, depthTest: false})),
           new THREE.Points(lines, new THREE.PointsMaterial(
-              {color: 0xd55e00, size: 8, sizeAttenuation: false, depthTest: false}))]) {
+              {...round, color: 0xd55e00, size: 9, depthTest: false}))]) {
           object.frustumCulled = false;
           this.landmarks.add(object);
         }
@@ -352,8 +363,7 @@
         }
       }
       this.color.needsUpdate = true;
-      const isClear = (over && this.data.surface !== 0) ||
-          (this.graph && this.graph.visible && this.nodePosition);
+      const isClear = over && this.data.surface !== 0;
       this.material.transparent = !!isClear;
       this.material.opacity = isClear ? 0.4 : 1;
       this.material.depthWrite = !isClear;
