@@ -249,7 +249,7 @@ StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
 }
 
 Status PrepareOutputs(const FitSettings& settings) {
-  const Status possible = CheckLookOutputs({settings.html, settings.png, settings.theme});
+  Status possible = CheckLookOutputs({settings.html, settings.png, settings.theme});
   if (!possible.ok()) return possible;
   for (const std::string* path : {&settings.output,
                                   &settings.warp,

@@ -121,7 +121,8 @@ std::string DrawLegend(const std::vector<PlotSeries>& series, double top) {
   constexpr double kColumn = 0.5 * (kWidth - kLeft - kRight);
   std::string svg;
   for (std::size_t i = 0; i < series.size(); ++i) {
-    const double y = top + kLegendRow * static_cast<double>(i / 2);
+    const std::size_t row = i / 2;
+    const double y = top + kLegendRow * static_cast<double>(row);
     const double x = kLeft + kColumn * static_cast<double>(i % 2);
     const std::string style = "series s" + std::to_string(i % kNumStyles);
     svg += Line(x, y, x + kSample, y, style.c_str());
@@ -137,8 +138,8 @@ std::string LinePlot(const PlotLabels& labels,
                      const PlotScales& scales) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const bool has_legend = series.size() > 1;
-  const double legend =
-      has_legend ? kLegendRow * static_cast<double>((series.size() + 1) / 2) + 4.0 : 0.0;
+  const std::size_t legend_rows = (series.size() + 1) / 2;
+  const double legend = has_legend ? kLegendRow * static_cast<double>(legend_rows) + 4.0 : 0.0;
   Axis x = {kInfinity, -kInfinity, kLeft, kWidth - kRight, scales.log_x};
   Axis y = {kInfinity, -kInfinity, kHeight + legend - kBottom, kTop + legend, scales.log_y};
   for (const PlotSeries& one : series) {

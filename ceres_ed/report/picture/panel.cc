@@ -156,6 +156,7 @@ void PanelPainter::DrawGraph() {
   if (contents_.graph == nullptr || !surface.motion) return;
   const MotionParts parts = PartsAt(contents_.at, PlacementShareOf(surface));
   std::vector<Eigen::Vector3d> nodes;
+  nodes.reserve(contents_.graph->kinds.size());
   for (int j = 0; j < static_cast<int>(contents_.graph->kinds.size()); ++j) {
     nodes.push_back(camera_.ToEye(surface.motion->MoveNode(j, parts)));
   }

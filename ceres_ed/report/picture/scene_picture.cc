@@ -184,7 +184,8 @@ ColorImage ScenePainter::Draw() {
   DrawHeading(&y);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const int left = static_cast<int>(i) % columns * width;
-    const double top = y + static_cast<double>(static_cast<int>(i) / columns) * (height + title);
+    const int row = static_cast<int>(i) / columns;
+    const double top = y + row * (height + title);
     const ColorImage panel =
         DrawPanel(panels[i].contents, camera, ball, frame, width, height, options_.theme);
     for (int v = 0; v < height; ++v) {
