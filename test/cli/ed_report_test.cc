@@ -100,6 +100,17 @@ TEST_F(EdReportTest, RefusesWhatIsNoReport) {
   }
 }
 
+TEST_F(EdReportTest, ADeeplyNestedReportIsNoFault) {
+  constexpr int kDepth = 200000;
+  const std::string deep = std::string(kDepth, '[') + std::string(kDepth, ']');
+  WriteBytes(
+      dir_ / "deep.json",
+      "{\"program\": \"ed_fit\", \"flags\": {\"a\": " + deep + "}, \"warnings\": [" + deep + "]}");
+  const ProgramResult result = RunReport({dir_ / "deep.json", html_});
+  EXPECT_EQ(result.signal, 0);
+  EXPECT_EQ(result.exit_code, 0) << result.err.substr(0, 300);
+}
+
 TEST_F(EdReportTest, FilesOfOtherPointsAreNotShown) {
   std::filesystem::copy_file(
       dir_ / "target.ply", dir_ / "source.ply", std::filesystem::copy_options::overwrite_existing);

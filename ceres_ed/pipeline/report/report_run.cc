@@ -43,7 +43,7 @@ Outcome RunReport(const ReportSettings& settings, RunObserver* observer) {
     for (const std::string& sentence : files.missing) {
       observer->OnWarning(path + ": " + sentence);
     }
-    runs.push_back({path, std::move(run->report), std::move(files.view)});
+    runs.push_back({path, std::move((*run).report), std::move(files.view)});
   }
   const Status status = runs.size() == 1 ? WriteFitLook(outputs, runs[0].report, runs[0].view)
                                          : WriteComparison(outputs, runs);

@@ -32,7 +32,13 @@ StatusOr<FinishedRun> ReadFinishedRun(const std::string& path) {
   }
   StatusOr<std::string> text = ReadWholeFile(run.path);
   if (!text.ok()) return text.status();
-  run.report = ordered_json::parse(*text, /*callback=*/nullptr, /*allow_exceptions=*/false);
+  // Values that lie deeper than those of any report are left out: what works on a value works on
+  // all that it has in it, and the stack is not without end.
+  constexpr int kMaxDepth = 64;
+  const auto is_kept = [](int depth,
+                          ordered_json::parse_event_t /*event*/,
+                          ordered_json& /*value*/) { return depth <= kMaxDepth; };
+  run.report = ordered_json::parse(*text, is_kept, /*allow_exceptions=*/false);
   if (run.report.is_discarded()) {
     return Status::Error(run.path + ": is no JSON, expected the report.json of a run");
   }

@@ -33,6 +33,7 @@ void AddSummary(const ordered_json& report, HtmlPage* page) {
                     ValueText(MemberOf(file, {"faces"})) + " faces, diagonal " +
                     ShortNumber(NumberOf(file, {"diagonal"}), 4) + ".");
   }
+  if (!lines.empty()) page->Subsection("Run");
   page->List(lines);
 }
 

@@ -41,7 +41,7 @@ std::string ValueText(const ordered_json& value, int digits) {
   if (value.is_boolean()) return value.get<bool>() ? "yes" : "no";
   if (value.is_number_integer()) return value.dump();
   if (value.is_number()) return ShortNumber(value.get<double>(), digits);
-  return value.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  return "(...)";
 }
 
 }  // namespace ceres_ed

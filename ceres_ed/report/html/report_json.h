@@ -25,7 +25,7 @@ std::string TextOf(const nlohmann::ordered_json& report, ReportPath path);
 std::string FlagText(const nlohmann::ordered_json& value);
 
 // Returns any value as people read it: texts as they are, numbers with `digits` digits, yes or no,
-// and "-" for null.
+// "-" for null, and "(...)" for lists and objects.
 std::string ValueText(const nlohmann::ordered_json& value, int digits = 4);
 
 }  // namespace ceres_ed

@@ -31,6 +31,13 @@ bool Moves(const Scene& scene) {
   return false;
 }
 
+bool HasFaces(const Scene& scene) {
+  for (const ViewSurface& surface : scene.surfaces) {
+    if (!surface.triangles.empty()) return true;
+  }
+  return false;
+}
+
 std::string Controls(const Scene& scene) {
   std::string html = "<div class=\"controls\">\n<label>Colour by <select id=\"field\">\n" +
                      FieldChoices(scene) + "</select></label>\n";
@@ -45,9 +52,10 @@ std::string Controls(const Scene& scene) {
   if (!scene.landmarks.empty()) {
     html += "<label><input type=\"checkbox\" id=\"landmarks\" checked> landmarks</label>\n";
   }
-  html +=
-      "<label><input type=\"checkbox\" id=\"edges\"> edges of faces</label>\n"
-      "<button type=\"button\" id=\"reset\">Reset the view</button>\n";
+  if (HasFaces(scene)) {
+    html += "<label><input type=\"checkbox\" id=\"edges\"> edges of faces</label>\n";
+  }
+  html += "<button type=\"button\" id=\"reset\">Reset the view</button>\n";
   if (Moves(scene)) {
     html +=
         "<label class=\"slider\">From source to result <input type=\"range\" id=\"way\" min=\"0\" "

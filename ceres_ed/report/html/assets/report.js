@@ -250,7 +250,7 @@
         this.scene.add(this.wire);
       } else {
         this.material = new THREE.PointsMaterial(
-            {size: 3 / Math.sqrt(count), vertexColors: THREE.VertexColors});
+            {size: 4.5 / Math.sqrt(count), vertexColors: THREE.VertexColors});
         this.body = new THREE.Points(this.geometry, this.material);
       }
       this.scene.add(this.body);
