@@ -95,10 +95,11 @@ TEST_P(EveryProgram, RefusesAnUnknownFlagInOneLine) {
 }
 
 TEST_P(EveryProgram, RefusesTooManyArgumentsInOneLine) {
-  const ProgramResult result = Run({"a", "b", "c", "d", "e"});
+  // ed_report takes many.
+  const ProgramResult result = Run(std::vector<std::string>(40, "a"));
   EXPECT_EQ(result.exit_code, 1);
   ASSERT_EQ(SplitLines(result.err).size(), 1u) << result.err;
-  EXPECT_THAT(result.err, StartsWith(GetParam() + ": 5 arguments given, expected "));
+  EXPECT_THAT(result.err, StartsWith(GetParam() + ": 40 arguments given, expected "));
 }
 
 INSTANTIATE_TEST_SUITE_P(Apps, EveryProgram, ::testing::ValuesIn(AllApps()), [](const auto& info) {

@@ -70,8 +70,13 @@ void FitViewBuilder::Measure() {
   FitDistances& distances = view_.distances;
   const std::vector<Eigen::Vector3d>& result = *parts_.result;
   if (has_target()) {
-    distances.to_target = SurfaceDistances(result, *parts_.target);
-    if (!placed_.empty()) distances.rigid_to_target = SurfaceDistances(placed_, *parts_.target);
+    // One search structure for both.
+    std::vector<Eigen::Vector3d> queries = result;
+    queries.insert(queries.end(), placed_.begin(), placed_.end());
+    const std::vector<double> found = SurfaceDistances(queries, *parts_.target);
+    const auto end = found.begin() + static_cast<std::ptrdiff_t>(result.size());
+    distances.to_target.assign(found.begin(), end);
+    distances.rigid_to_target.assign(end, found.end());
     PointCloud cloud;
     cloud.points = result;
     if (parts_.triangles != nullptr) cloud.triangles = *parts_.triangles;
