@@ -42,7 +42,7 @@ def report(apps, pair, output, work):
     return Path(f"{output}.html").stat().st_size
 
 
-def screenshot(page, picture, width=1200, height=1000):
+def screenshot(page, picture, width=1200, height=1120):
     """Takes a picture of a page with headless Chromium."""
     sys.path.insert(0, str(ROOT / "test" / "report"))
     from browser import Missing, open_browser

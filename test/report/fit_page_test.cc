@@ -2,13 +2,16 @@
 
 #include <ceres_ed/report/html/assets.h>
 #include <ceres_ed/report/html/comparison_page.h>
+#include <ceres_ed/report/html/evidence_words.h>
 #include <ceres_ed/report/html/fit_page.h>
 #include <ceres_ed/report/html/page.h>
 #include <ceres_ed/report/html/viewer.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 namespace ceres_ed {
@@ -133,6 +136,31 @@ TEST(FitPage, SaysVerdictReasonsAndAdvice) {
   EXPECT_TRUE(Has(page, "a fifth is unmatched"));
   EXPECT_TRUE(Has(page, "<td class=\"n\">0.200</td>"));
   EXPECT_TRUE(Has(page, "give landmarks"));
+}
+
+TEST(FitPage, SaysInWordsWhatTheFitShows) {
+  ordered_json report;
+  report["evidence"] = {{"source", {{"matched", 0.4}, {"missed", 0.0}, {"unseen", 0.6}}},
+                        {"target", {{"matched", 0.9}, {"missed", 0.1}, {"unseen", 0.0}}},
+                        {"residual", 0.002},
+                        {"noise", 0.001},
+                        {"edge_stretch", std::log(1.25)},
+                        {"folded", 0.0},
+                        {"bend", 0.05}};
+  EXPECT_THAT(
+      EvidenceSentences(report),
+      ::testing::ElementsAre(
+          "40.0 % of the source lies on the target; of 60.0 % the target shows nothing; "
+          "nothing that the target shows is missed.",
+          "90.0 % of the target lies on the source; 10.0 % is missed although the source "
+          "shows it.",
+          "The matched parts are 0.200 % of the diagonal apart (root mean square); the noise "
+          "of the target is 0.100 %.",
+          "95 % of the lengths on the source change by less than a factor of 1.25.",
+          "Points are 5.00 % of the diagonal from the best rigid motion of the source, in "
+          "the mean."));
+  report["evidence"] = {{"source", "nothing"}, {"residual", -1.0}};
+  EXPECT_TRUE(EvidenceSentences(report).empty());
 }
 
 TEST(FitPage, FetchesNothing) {

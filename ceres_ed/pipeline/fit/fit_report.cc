@@ -294,6 +294,7 @@ ordered_json FitResultReport(const FitInput& input, const FitResult& result) {
           {"energy", EnergyReport(result)},
           {"verdict", VerdictReport(verdict)},
           {"unmatched", UnmatchedReport(result.evidence)},
+          {"evidence", EvidenceReport(result.evidence)},
           {"covariance", CovarianceReport(result.uncertainty)},
           {"time_s", StagesReport(result.times)},
           {"warnings", result.warnings}};

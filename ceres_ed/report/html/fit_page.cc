@@ -2,6 +2,7 @@
 
 #include <ceres_ed/report/html/about.h>
 #include <ceres_ed/report/html/distance_section.h>
+#include <ceres_ed/report/html/evidence_words.h>
 #include <ceres_ed/report/html/page.h>
 #include <ceres_ed/report/html/report_json.h>
 #include <ceres_ed/report/html/run_sections.h>
@@ -153,6 +154,7 @@ std::string FitPage(const ordered_json& report,
                     const std::string& picture_png) {
   HtmlPage page(FitTitle(report));
   AddVerdict(report, &page);
+  page.List(EvidenceSentences(report));
   AddSummary(report, &page);
   page.Section("View");
   AddViewer(view.scene, picture_png, &page);
