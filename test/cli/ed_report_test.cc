@@ -1,4 +1,6 @@
 // ed_report, and the pages and pictures of ed_eval.
+#include <ceres_ed/report/picture/png.h>
+
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -39,6 +41,7 @@ class EdReportTest : public EdFitTest {
 };
 
 TEST_F(EdReportTest, WritesPageAndPictureOfAFinishedFit) {
+  if (!HasPictures()) GTEST_SKIP() << kNoPictures;
   const ProgramResult result =
       RunReport({dir_ / "report.json", html_, "--png=" + (dir_ / "page.png")});
   EXPECT_EQ(result.exit_code, 0);
@@ -135,6 +138,7 @@ TEST_F(EdReportTest, TheSameRunHasTheSameBytes) {
 }
 
 TEST_F(EdReportTest, EvaluationsHavePagesToo) {
+  if (!HasPictures()) GTEST_SKIP() << kNoPictures;
   const ProgramResult result = RunProgramFile(AppPath("ed_eval"),
                                               {dir_ / "out.ply",
                                                dir_ / "target.ply",
