@@ -36,7 +36,7 @@ CERES_ED_FIELDS(PointCloud, points, normals, normals_oriented, intensities, tria
 CERES_ED_FIELDS(Landmark, point, position)
 CERES_ED_FIELDS(PlyProperty, name, type, values, is_list, list_count_type, list_sizes)
 CERES_ED_FIELDS(PlyElement, name, count, properties)
-CERES_ED_FIELDS(PlyDocument, format, comments, obj_info, elements)
+CERES_ED_FIELDS(PlyDocument, format, comments, obj_info, elements, warnings)
 CERES_ED_FIELDS(LoadedCloud, cloud, document, vertex_of_point, warnings)
 CERES_ED_FIELDS(FitInput, source, target, landmarks, fixed_points)
 CERES_ED_FIELDS(Correspondence, point, detail, target, normal, weight)
@@ -45,6 +45,7 @@ CERES_ED_FIELDS(
 CERES_ED_FIELDS(Matches, correspondences, details, candidates, inliers, plane, distance, robust)
 CERES_ED_FIELDS(TermEnergy, label, weighted, raw, residuals)
 CERES_ED_FIELDS(EnergySummary, terms)
+CERES_ED_FIELDS(FitRound, stiffness, inliers, rms_plane, energy)
 CERES_ED_FIELDS(FitTimes, prepare, rigid, graph, associate, build, solve, level1, level2, finish)
 CERES_ED_FIELDS(FitUncertainty, covariances, undetermined_nodes, time)
 CERES_ED_FIELDS(CoverEvidence, matched, missed, unseen)
@@ -141,6 +142,7 @@ CERES_ED_FIELDS(FitResult,
                 matches,
                 initial,
                 final,
+                rounds,
                 outer,
                 inner,
                 fixed_error,
