@@ -37,7 +37,7 @@ constexpr double kSmallGain = 0.1;
 // that the smoothing of curved surfaces leaves. Corners are neighbours up to this distance.
 constexpr double kStillSpread = 2.0;
 constexpr double kStillCoherence = 0.1;
-constexpr double kStillChance = 1.0;
+constexpr double kStillChance = 2.0;
 constexpr double kStillDeviation = 0.005;
 constexpr double kStillReach = 2.0;
 // Residuals are limited to this many deviations, so that outliers do not count as motion.
