@@ -60,7 +60,7 @@ const OptionTable<FitSettings>& FitSettingsRows() {
           .File(),
       Row(&S::scale, "scale", "A factor for SOURCE: a number, auto, or units such as mm:m.").Main(),
       Row(&S::repair, "repair", "Mend what ed_check finds and what is safe to mend.").Main(),
-      Row(&S::fail_if, "fail_if", "Exit code 3 from this verdict on.").Main(),
+      Row(&S::fail_if, "fail_if", "Exit code 3 from this verdict.").Main(),
       Nested(&S::options, FitOptions::Rows()).Internal("covariance"),
   });
   return rows;

@@ -107,7 +107,7 @@ TEST(EdApplyField, NamesWhatIsMissingOrWrong) {
   const std::string warp = WriteTurn();
   const std::vector<std::pair<std::vector<std::string>, std::string>> bad = {
       {{warp}, "flag --output is required"},
-      {{warp, "--output=" + TempPath("x.ply")}, "without IN.ply, expected the cloud to deform"},
+      {{warp, "--output=" + TempPath("x.ply")}, "without IN, expected what is to be deformed"},
       {{warp, "--field=" + TempPath("x.png")}, "unknown format of a displacement field"},
       {{warp, "--field=a.vti", "--rigid=a.vti"}, "'a.vti' is the name of two outputs"},
       {{warp, "--field=" + TempPath("x.vti"), "--spacing=-1"}, "--spacing=-1, expected"},

@@ -52,9 +52,11 @@ const ProgramInfo kInfo = {
 
 // Returns the words that bash offers for the last one of `words`, one in each line and sorted.
 std::string Offered(const std::string& words) {
-  const std::string folder = ::testing::TempDir();
-  const std::string script = folder + "/completion_of_prog.bash";
-  const std::string result = folder + "/completion_of_prog.txt";
+  // Tests that run side by side must not share these files.
+  const std::string base = ::testing::TempDir() + "/completion_of_" +
+                           ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const std::string script = base + ".bash";
+  const std::string result = base + ".txt";
   std::ofstream(script) << BashCompletion(kInfo) << "compopt() { :; }\n"
                         << "COMP_WORDS=(prog " << words << ")\n"
                         << "COMP_CWORD=$((${#COMP_WORDS[@]} - 1))\n"
