@@ -43,6 +43,9 @@ function(ceres_ed_add_package component name section depends summary text)
   set(CPACK_DEBIAN_${key}_PACKAGE_SECTION ${section} PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_PACKAGE_DEPENDS "${depends}" PARENT_SCOPE)
   set(CPACK_DEBIAN_${key}_DESCRIPTION "${summary}\n${text}" PARENT_SCOPE)
+  if(section STREQUAL libs)
+    set(CPACK_DEBIAN_${key}_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers PARENT_SCOPE)
+  endif()
   set(CPACK_COMPONENTS_ALL ${CPACK_COMPONENTS_ALL} ${component} PARENT_SCOPE)
 endfunction()
 
@@ -63,7 +66,6 @@ ceres_ed_add_package(
   "${ceres_ed_text}\n
 This package has what programs and plugins are built with: headers, and
 files for CMake and pkg-config.")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 ceres_ed_add_package(
   doc ceres-ed-doc doc "" "embedded deformation graphs: documentation and examples"
   "${ceres_ed_text}\n
@@ -97,7 +99,6 @@ if(CERES_ED_BUILD_PCL)
 With this package the programs read and write .pcd files, and C++ programs
 convert the clouds and meshes of the Point Cloud Library (which they build
 with libceres-ed-dev and libpcl-dev).")
-  set(CPACK_DEBIAN_PCL_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
 if(TARGET ceres_ed_vtk)
   ceres_ed_add_package(
@@ -119,7 +120,6 @@ if(TARGET ceres_ed_video)
     "${ceres_ed_text}\n
 With this package the programs read and write stereo recordings that are
 videos.")
-  set(CPACK_DEBIAN_VIDEO_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
 
 if(CERES_ED_BUILD_HDF5)
@@ -127,7 +127,6 @@ if(CERES_ED_BUILD_HDF5)
     hdf5 ceres-ed-hdf5 libs "${ceres_ed_same_version}" "embedded deformation graphs: transforms in HDF5"
     "${ceres_ed_text}\n
 With this package ed_apply writes displacement fields as .h5 files of ITK.")
-  set(CPACK_DEBIAN_HDF5_PACKAGE_CONTROL_EXTRA ${ceres_ed_debian}/library/triggers)
 endif()
 
 if(NOT BUILD_SHARED_LIBS)

@@ -27,6 +27,7 @@ set(CERES_ED_PUBLIC_HEADERS
     ceres_ed/graph/warp.h
     ceres_ed/io/cloud_io.h
     ceres_ed/io/mesh/ply_document.h
+    ceres_ed/io/results/covariance_files.h
     ceres_ed/io/results/live_cloud_io.h
     ceres_ed/io/results/map_ply.h
     ceres_ed/io/sequence/depth_sequence.h
