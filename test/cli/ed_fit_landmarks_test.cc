@@ -19,18 +19,18 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 // Points of the ring that are no vertices, with a name each.
-std::vector<NamedPoint> RingLandmarks() {
-  std::vector<NamedPoint> points;
+std::vector<NamedLandmark> RingLandmarks() {
+  std::vector<NamedLandmark> points;
   for (int i = 0; i < 8; ++i) {
     points.push_back({"L" + std::to_string(i), RingPoint(0.01 + i / 8.0, 0.02 + 0.3 * i)});
   }
   return points;
 }
 
-nlohmann::json Markups(const std::vector<NamedPoint>& points, const std::string& space) {
+nlohmann::json Markups(const std::vector<NamedLandmark>& points, const std::string& space) {
   const double sign = space == "RAS" ? -1.0 : 1.0;
   nlohmann::json list = nlohmann::json::array();
-  for (const NamedPoint& point : points) {
+  for (const NamedLandmark& point : points) {
     const Eigen::Vector3d& p = point.position;
     list.push_back({{"label", point.name},
                     {"position", {sign * p.x(), sign * p.y(), p.z()}},
@@ -42,12 +42,12 @@ nlohmann::json Markups(const std::vector<NamedPoint>& points, const std::string&
       {"markups", {{{"type", "Fiducial"}, {"coordinateSystem", space}, {"controlPoints", list}}}}};
 }
 
-std::string Fcsv(const std::vector<NamedPoint>& points) {
+std::string Fcsv(const std::vector<NamedLandmark>& points) {
   std::ostringstream text;
   text.precision(17);
   text << "# Markups fiducial file version = 4.11\n# CoordinateSystem = LPS\n"
           "# columns = id,x,y,z,ow,ox,oy,oz,vis,sel,lock,label,desc,associatedNodeID\n";
-  for (const NamedPoint& point : points) {
+  for (const NamedLandmark& point : points) {
     const Eigen::Vector3d& p = point.position;
     text << "id," << p.x() << ',' << p.y() << ',' << p.z() << ",0,0,0,1,1,1,0," << point.name
          << ",,\n";
@@ -58,7 +58,7 @@ std::string Fcsv(const std::vector<NamedPoint>& points) {
 class EdFitLandmarks : public EdFitTest {
  protected:
   EdFitLandmarks() {
-    for (const NamedPoint& point : RingLandmarks()) {
+    for (const NamedLandmark& point : RingLandmarks()) {
       source_.push_back(point);
       target_.insert(target_.begin(), {point.name, BentPoint(point.position)});
     }
@@ -79,8 +79,8 @@ class EdFitLandmarks : public EdFitTest {
     return FitPair(flags);
   }
 
-  std::vector<NamedPoint> source_;
-  std::vector<NamedPoint> target_;
+  std::vector<NamedLandmark> source_;
+  std::vector<NamedLandmark> target_;
 };
 
 TEST_F(EdFitLandmarks, DriveAFitAndAreReportedByNameInWhicheverSpaceAndOrder) {

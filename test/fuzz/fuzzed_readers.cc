@@ -164,7 +164,7 @@ std::string NamedPointsFault(const std::string& path, const std::string& scratch
   const auto read = [](const std::string& file) { return ReadLandmarkFile(file); };
   const auto write = [](const std::string& file, const LandmarkFile& landmarks) {
     std::vector<Eigen::Vector3d> positions;
-    for (const NamedPoint& point : landmarks.points) positions.push_back(point.position);
+    for (const NamedLandmark& point : landmarks.points) positions.push_back(point.position);
     return WriteLandmarkFile(file, landmarks, positions);
   };
   return FaultOfRoundTrip(path, scratch, read, write);

@@ -77,7 +77,7 @@ class LandmarkFiles : public ::testing::Test {
   // "name x y z" of each point.
   static std::vector<std::string> Rows(const LandmarkFile& file) {
     std::vector<std::string> rows;
-    for (const NamedPoint& point : file.points) {
+    for (const NamedLandmark& point : file.points) {
       std::ostringstream row;
       row << point.name << ' '
           << point.position.transpose().format(

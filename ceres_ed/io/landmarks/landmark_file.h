@@ -18,7 +18,7 @@ namespace ceres_ed {
 enum class AnatomicalSpace { kUnknown, kLps, kRas };
 
 // A landmark and its name.
-struct NamedPoint {
+struct NamedLandmark {
   std::string name;
   Eigen::Vector3d position = Eigen::Vector3d::Zero();
 };
@@ -30,7 +30,7 @@ enum class LandmarkSide { kSource, kTarget };
 struct LandmarkFile {
   // At least one. Positions are as in the file; names are not empty and differ. A point without a
   // name has its number, counted from 1.
-  std::vector<NamedPoint> points;
+  std::vector<NamedLandmark> points;
   // What the file says.
   AnatomicalSpace space = AnatomicalSpace::kUnknown;
   // What was left out or guessed, a sentence for each kind.

@@ -118,7 +118,7 @@ class JsonParser {
   }
 
   Status AddPoint(const std::string& name, const Json& position, const std::string& place) {
-    NamedPoint point;
+    NamedLandmark point;
     point.name = name;
     if (!position.is_array() || position.size() != 3) {
       return Error(place + " is no list of three numbers");

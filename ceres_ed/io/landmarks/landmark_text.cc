@@ -77,7 +77,7 @@ class LineParser {
   }
 
   Status AddPoint(const Fields& fields, const Columns& columns) {
-    NamedPoint point;
+    NamedLandmark point;
     std::array<LandmarkFile::Place, 3> places;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t column = columns.position[axis];

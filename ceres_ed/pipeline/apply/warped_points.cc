@@ -47,7 +47,7 @@ StatusOr<std::vector<Eigen::Vector3d>> WarpedLandmarks(const Warp& warp,
   const AnatomicalSpace space =
       SpaceOfMesh(mesh_space, surface == nullptr ? PlyDocument() : surface->document);
   std::vector<Eigen::Vector3d> points;
-  for (const NamedPoint& point : landmarks.points) {
+  for (const NamedLandmark& point : landmarks.points) {
     points.push_back(BetweenSpaces(point.position, landmarks.space, space));
   }
   StatusOr<std::vector<Eigen::Vector3d>> warped = WarpedPoints(warp, warp_path, surface, points);

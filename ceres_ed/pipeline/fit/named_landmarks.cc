@@ -32,9 +32,11 @@ struct Side {
   LandmarkSide columns;
 };
 
-double MedianDistance(const std::vector<NamedPoint>& points, const KdTree& tree, bool is_turned) {
+double MedianDistance(const std::vector<NamedLandmark>& points,
+                      const KdTree& tree,
+                      bool is_turned) {
   std::vector<double> distances;
-  for (const NamedPoint& point : points) {
+  for (const NamedLandmark& point : points) {
     const Eigen::Vector3d at =
         is_turned ? BetweenSpaces(point.position, AnatomicalSpace::kRas, AnatomicalSpace::kLps)
                   : point.position;
@@ -47,7 +49,7 @@ double MedianDistance(const std::vector<NamedPoint>& points, const KdTree& tree,
 
 // Warns of landmarks that do not lie at their surface, with the likely reason.
 void CheckDistances(const Side& side,
-                    const std::vector<NamedPoint>& points,
+                    const std::vector<NamedLandmark>& points,
                     std::vector<std::string>* warnings) {
   const double diagonal = Diagonal(side.surface.cloud.points);
   if (side.surface.cloud.empty() || !(diagonal > 0.0)) return;
@@ -66,14 +68,14 @@ void CheckDistances(const Side& side,
                                  : ": do both have the same frame and unit?"));
 }
 
-StatusOr<std::vector<NamedPoint>> LoadSide(const Side& side,
-                                           MeshSpace setting,
-                                           std::vector<std::string>* warnings) {
+StatusOr<std::vector<NamedLandmark>> LoadSide(const Side& side,
+                                              MeshSpace setting,
+                                              std::vector<std::string>* warnings) {
   StatusOr<LandmarkFile> file = ReadLandmarkFile(side.landmarks, side.columns);
   if (!file.ok()) return file.status();
   warnings->insert(warnings->end(), file->warnings.begin(), file->warnings.end());
   const AnatomicalSpace space = SpaceOfMesh(setting, side.surface.document);
-  for (NamedPoint& point : file->points) {
+  for (NamedLandmark& point : file->points) {
     point.position = BetweenSpaces(point.position, file->space, space);
   }
   CheckDistances(side, file->points, warnings);
@@ -136,9 +138,9 @@ StatusOr<NamedLandmarks> LoadNamedLandmarks(const FitSettings& settings,
                &named.warnings);
   if (!on_target.ok()) return on_target.status();
   std::map<std::string, Eigen::Vector3d> partners;
-  for (const NamedPoint& point : *on_target) partners[point.name] = point.position;
+  for (const NamedLandmark& point : *on_target) partners[point.name] = point.position;
   std::set<std::string> used;
-  for (const NamedPoint& point : *on_source) {
+  for (const NamedLandmark& point : *on_source) {
     const auto partner = partners.find(point.name);
     if (partner == partners.end()) {
       named.only_source.push_back(point.name);
@@ -147,7 +149,7 @@ StatusOr<NamedLandmarks> LoadNamedLandmarks(const FitSettings& settings,
     used.insert(point.name);
     named.pairs.push_back({point.name, point.position, partner->second});
   }
-  for (const NamedPoint& point : *on_target) {
+  for (const NamedLandmark& point : *on_target) {
     if (used.count(point.name) == 0) named.only_target.push_back(point.name);
   }
   if (named.pairs.empty()) {
