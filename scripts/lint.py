@@ -131,7 +131,8 @@ def check(build, name, paths, flags):
 
 def main():
     build = os.path.abspath(sys.argv[1])
-    flags = compile_flags(build)
+    # What the build has written itself has no style.
+    flags = {path: flag for path, flag in compile_flags(build).items() if not path.startswith(build + os.sep)}
     if len(sys.argv) > 2:
         files = [os.path.abspath(path) for path in sys.argv[2:]]
         left_out = [os.path.relpath(path, ROOT) for path in files if path not in flags]
