@@ -4,6 +4,7 @@
 
 #include <ceres_ed/geometry/depth_noise.h>
 #include <ceres_ed/geometry/images.h>
+#include <ceres_ed/geometry/mesh_raster.h>
 #include <ceres_ed/geometry/pinhole_camera.h>
 #include <ceres_ed/simulation/texture.h>
 
@@ -15,34 +16,6 @@
 
 namespace ceres_ed {
 
-// The place on a mesh that a pixel sees.
-struct SyntheticFragment {
-  // The triangle, or -1 if the pixel sees nothing.
-  int triangle = -1;
-  // The barycentric weights of the triangle's corners at that place; they sum to 1.
-  std::array<float, 3> weights = {0.0F, 0.0F, 0.0F};
-};
-
-// What a camera sees of a mesh, pixel by pixel.
-struct SyntheticRaster {
-  DepthImage depth;
-  Image<SyntheticFragment> fragments;
-
-  // Returns the value of a field (one vector per vertex) at the place that pixel (u, v) sees. The
-  // pixel must see the mesh that was drawn.
-  Eigen::Vector3d Interpolate(const std::vector<std::array<int, 3>>& triangles,
-                              const std::vector<Eigen::Vector3d>& field,
-                              int u,
-                              int v) const;
-};
-
-// Returns the nearest surface that the centre of each pixel sees, from either side of a triangle.
-// `points` are in the camera frame, in metres. A triangle that comes nearer than 0.1 mm to the
-// camera's plane is left out.
-SyntheticRaster RasterizeMesh(const std::vector<Eigen::Vector3d>& points,
-                              const std::vector<std::array<int, 3>>& triangles,
-                              const PinholeCamera& camera);
-
 // Returns one unit normal per point, the mean of its triangles' normals weighted by area; zero for
 // a point without triangles.
 std::vector<Eigen::Vector3d> AreaWeightedNormals(const std::vector<Eigen::Vector3d>& points,
@@ -51,7 +24,7 @@ std::vector<Eigen::Vector3d> AreaWeightedNormals(const std::vector<Eigen::Vector
 // Returns, for each pixel, the cosine in [0, 1] of the angle between its ray and the normal of the
 // surface that it sees, and 0 where it sees nothing. `normals` has one normal per vertex, in the
 // camera frame.
-Image<float> IncidenceCosines(const SyntheticRaster& raster,
+Image<float> IncidenceCosines(const MeshRaster& raster,
                               const std::vector<std::array<int, 3>>& triangles,
                               const std::vector<Eigen::Vector3d>& normals,
                               const PinholeCamera& camera);
@@ -59,7 +32,7 @@ Image<float> IncidenceCosines(const SyntheticRaster& raster,
 // Returns the picture under a lamp at the camera; it is black where nothing is seen. `rest` is the
 // position of each vertex when the tissue is at rest, in metres. `cosines` is the result of
 // IncidenceCosines().
-ColorImage ShadeTissue(const SyntheticRaster& raster,
+ColorImage ShadeTissue(const MeshRaster& raster,
                        const std::vector<std::array<int, 3>>& triangles,
                        const std::vector<Eigen::Vector3d>& rest,
                        const Image<float>& cosines,
@@ -68,7 +41,7 @@ ColorImage ShadeTissue(const SyntheticRaster& raster,
 
 // What one camera sees: geometry and colour.
 struct RenderedView {
-  SyntheticRaster raster;
+  MeshRaster raster;
   // See IncidenceCosines().
   Image<float> cosines;
   // The unit normals of the mesh's vertices in the camera frame.

@@ -1,7 +1,7 @@
 #include "ceres_ed/report/picture/panel.h"
 
+#include <ceres_ed/geometry/mesh_raster.h>
 #include <ceres_ed/geometry/normals.h>
-#include <ceres_ed/simulation/rendering.h>
 
 #include <algorithm>
 #include <cmath>
@@ -90,7 +90,7 @@ void PanelPainter::DrawFaces(const std::vector<Eigen::Vector3d>& points,
   cloud.points = points;
   cloud.triangles = contents_.surface->triangles;
   const std::vector<Eigen::Vector3d> normals = ComputeVertexNormals(cloud);
-  const SyntheticRaster raster = RasterizeMesh(points, cloud.triangles, camera_.pinhole());
+  const MeshRaster raster = RasterizeMesh(points, cloud.triangles, camera_.pinhole());
   for (int v = 0; v < picture_.height(); ++v) {
     for (int u = 0; u < picture_.width(); ++u) {
       if (raster.fragments(u, v).triangle < 0) continue;
