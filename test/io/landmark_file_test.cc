@@ -197,5 +197,48 @@ TEST_F(LandmarkFiles, TurningBetweenSpacesChangesTheSignsOfXAndY) {
   EXPECT_EQ(BetweenSpaces(point, S::kUnknown, S::kLps), point);
 }
 
+// Names that each format has its own trouble with.
+const std::vector<NamedLandmark> kNewPoints = {{"nasion", {1.0 / 3.0, -2.5e-7, 3e10}},
+                                               {"left, upper", {0.1, 0.2, 0.3}},
+                                               {"3 \"of\" #4", {-1, 2, 5}}};
+
+TEST_F(LandmarkFiles, NewOnesAreReadBackWithTheSameBits) {
+  for (const std::string ending : {".mrk.json", ".fcsv", ".csv"}) {
+    for (const AnatomicalSpace space : {AnatomicalSpace::kLps, AnatomicalSpace::kRas}) {
+      const std::string path = directory_ / ("new" + ending);
+      const Status status = WriteNewLandmarkFile(path, kNewPoints, space);
+      ASSERT_TRUE(status.ok()) << status.message();
+      const auto read = ReadLandmarkFile(path);
+      ASSERT_TRUE(read.ok()) << read.status().message();
+      EXPECT_EQ(read->space, space) << ending;
+      EXPECT_THAT(read->warnings, IsEmpty());
+      ASSERT_EQ(read->points.size(), kNewPoints.size());
+      for (std::size_t i = 0; i < kNewPoints.size(); ++i) {
+        EXPECT_EQ(read->points[i].name, kNewPoints[i].name) << ending;
+        EXPECT_EQ(read->points[i].position, kNewPoints[i].position) << ending;
+      }
+    }
+  }
+}
+
+TEST_F(LandmarkFiles, NewOnesSayWhatTheirFormatCannotHold) {
+  const auto message = [this](const std::string& name, const std::string& label, bool known) {
+    return WriteNewLandmarkFile(directory_ / name,
+                                {{label, {1, 2, 3}}},
+                                known ? AnatomicalSpace::kLps : AnatomicalSpace::kUnknown)
+        .message();
+  };
+  EXPECT_EQ(message("new.pts", "nasion", false), "");
+  EXPECT_EQ(ReadLandmarkFile(directory_ / "new.pts")->points[0].name, "nasion");
+  EXPECT_EQ(message("new.csv", "nasion", false), "");
+  EXPECT_EQ(ReadLandmarkFile(directory_ / "new.csv")->space, AnatomicalSpace::kUnknown);
+  EXPECT_THAT(message("new.pts", "left upper", true),
+              HasSubstr("can't hold the name 'left upper'"));
+  EXPECT_THAT(message("new.pts", "version", true), HasSubstr("can't hold the name"));
+  EXPECT_THAT(message("new.json", "nasion", false), HasSubstr("expected LPS or RAS"));
+  EXPECT_THAT(message("new.txt", "nasion", true), HasSubstr("ends in .json, .fcsv, .pts or .csv"));
+  EXPECT_THAT(message("new.csv", "two\nlines", true), HasSubstr("a name of one line"));
+}
+
 }  // namespace
 }  // namespace ceres_ed

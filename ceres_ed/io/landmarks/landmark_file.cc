@@ -15,16 +15,8 @@
 namespace ceres_ed {
 namespace {
 
-std::string EndingOf(const std::string& path) {
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return ending;
-}
-
 Status Parse(const std::string& path, LandmarkSide side, LandmarkFile* file) {
-  const std::string ending = EndingOf(path);
+  const std::string ending = LandmarkEnding(path);
   if (ending == ".json") return ParseLandmarkJson(path, file);
   if (ending == ".fcsv") return ParseFcsv(path, file);
   if (ending == ".pts") return ParsePts(path, file);
@@ -52,8 +44,16 @@ Status CheckNames(const std::string& path, LandmarkFile* file) {
 
 }  // namespace
 
+std::string LandmarkEnding(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return ending;
+}
+
 bool HasLandmarkEnding(const std::string& path) {
-  const std::string ending = EndingOf(path);
+  const std::string ending = LandmarkEnding(path);
   return ending == ".json" || ending == ".fcsv" || ending == ".pts" || ending == ".csv";
 }
 

@@ -69,6 +69,14 @@ Status WriteLandmarkFile(const std::string& path,
                          const LandmarkFile& file,
                          const std::vector<Eigen::Vector3d>& positions);
 
+// Writes `points` to a new file in the format of the ending of `path`: .json is markups of 3D
+// Slicer, .fcsv its old fiducials, .pts rows `name x y z`, and .csv rows below a header that names
+// the axes. Names are not empty and differ, and `space` says how the positions are written. The
+// error says which name the format can't hold, and that 3D Slicer's formats need a known space.
+Status WriteNewLandmarkFile(const std::string& path,
+                            const std::vector<NamedLandmark>& points,
+                            AnatomicalSpace space);
+
 // Returns `position` with x and y turned if `from` and `to` are known and differ.
 Eigen::Vector3d BetweenSpaces(const Eigen::Vector3d& position,
                               AnatomicalSpace from,

@@ -7,8 +7,14 @@
 #include <ceres_ed/util/status.h>
 
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 namespace ceres_ed {
+
+// Returns the ending of a file's name in lower case, for example ".json".
+std::string LandmarkEnding(const std::string& path);
 
 Status ParseLandmarkJson(const std::string& path, LandmarkFile* file);
 Status ParseFcsv(const std::string& path, LandmarkFile* file);
