@@ -37,6 +37,14 @@ std::string PictureOfPage(const Scene& scene, PictureOptions options) {
   return HasPictures() ? EncodePng(DrawScene(scene, options)) : "";
 }
 
+// Returns the words above the picture of a fit.
+PictureOptions OptionsOfFit(const nlohmann::ordered_json& report) {
+  PictureOptions options;
+  options.title = FitTitle(report);
+  options.subtitle = VerdictLine(report);
+  return options;
+}
+
 }  // namespace
 
 Status CheckLookOutputs(const LookOutputs& outputs) {
@@ -47,9 +55,7 @@ Status CheckLookOutputs(const LookOutputs& outputs) {
 Status WriteFitLook(const LookOutputs& outputs,
                     const nlohmann::ordered_json& report,
                     const FitView& view) {
-  PictureOptions options;
-  options.title = FitTitle(report);
-  options.subtitle = VerdictLine(report);
+  PictureOptions options = OptionsOfFit(report);
   if (!outputs.png.empty()) {
     options.theme = outputs.theme;
     Status status = WritePicture(outputs.png, view.scene, options);
@@ -58,6 +64,17 @@ Status WriteFitLook(const LookOutputs& outputs,
   if (outputs.html.empty()) return Status::Ok();
   return WriteFileAtomically(outputs.html,
                              FitPage(report, view, PictureOfPage(view.scene, options)));
+}
+
+std::string FitPng(const nlohmann::ordered_json& report,
+                   const FitView& view,
+                   Theme theme,
+                   int width) {
+  if (!HasPictures()) return "";
+  PictureOptions options = OptionsOfFit(report);
+  options.theme = theme;
+  options.width = width;
+  return EncodePng(DrawScene(view.scene, options));
 }
 
 Status WriteComparison(const LookOutputs& outputs, const std::vector<ComparedRun>& runs) {

@@ -30,6 +30,13 @@ Status WriteFitLook(const LookOutputs& outputs,
                     const nlohmann::ordered_json& report,
                     const FitView& view);
 
+// Returns the same picture of a fit as a PNG file of `width` pixels; empty if this build can draw
+// none, or if there is nothing to draw.
+std::string FitPng(const nlohmann::ordered_json& report,
+                   const FitView& view,
+                   Theme theme,
+                   int width);
+
 // Writes page and picture of several runs beside each other.
 Status WriteComparison(const LookOutputs& outputs, const std::vector<ComparedRun>& runs);
 

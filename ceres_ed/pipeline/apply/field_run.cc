@@ -104,67 +104,84 @@ FieldSubject SubjectOf(const FieldSettings& settings, const Warp& warp, const Mo
   return subject;
 }
 
-Outcome WriteField(const FieldSettings& settings,
-                   const SpaceWarp& warp,
-                   const MovedPoints& points,
-                   FieldObserver* observer) {
-  const StatusOr<const FieldFormat*> format = FieldFormatOf(settings.field);
-  if (!format.ok()) return Outcome::Usage(format.status().message());
+Outcome BadWarp(const std::string& warp_path, const Status& status) {
+  return Outcome::BadInput(Status::Error(warp_path + ": " + status.message()));
+}
+
+Outcome FillField(const FieldSettings& settings,
+                  const FieldFormat& format,
+                  const std::string& warp_path,
+                  const SpaceWarp& warp,
+                  const PointCloud* cloud,
+                  FieldObserver* observer,
+                  MadeField* made) {
+  const StatusOr<MovedPoints> points = cloud == nullptr
+                                           ? StatusOr<MovedPoints>(MoveNodesAndFinish(warp))
+                                           : MoveCloud(warp.warp(), *cloud, settings.num_threads);
+  if (!points.ok()) return BadWarp(warp_path, points.status());
   if (const auto bounds = ParseBounds(settings.bounds); !bounds.ok()) {
     return Outcome::Usage(bounds.status().message());
   }
-  if (Status status = PrepareOutput(settings.field); !status.ok()) {
-    return Outcome::BadInput(status);
-  }
-  const FieldSpace space = (*format)->space;
-  const FileFrame frame = FrameOfFile(space, settings.frame, settings.unit);
+  const FileFrame frame = FrameOfFile(format.space, settings.frame, settings.unit);
   const StatusOr<FieldGrid> grid =
-      ChooseGrid(settings, **format, frame, SubjectOf(settings, warp.warp(), points));
+      ChooseGrid(settings, format, frame, SubjectOf(settings, warp.warp(), *points));
   if (!grid.ok()) return Outcome::BadInput(grid.status());
-  WrittenField written;
-  written.grid = *grid;
-  written.spacing = grid->spacing.minCoeff() / frame.unit();
-  written.is_lps = space == FieldSpace::kLps;
-  written.megabytes = FieldMegabytes(**format, *grid);
-  observer->OnGrid(written);
-  std::optional<DisplacementField> field = Fill(settings, warp, frame, observer, &written);
+  WrittenField& about = made->about;
+  about.grid = *grid;
+  about.spacing = grid->spacing.minCoeff() / frame.unit();
+  about.is_lps = format.space == FieldSpace::kLps;
+  about.megabytes = FieldMegabytes(format, *grid);
+  observer->OnGrid(about);
+  std::optional<DisplacementField> field = Fill(settings, warp, frame, observer, &about);
   if (!field.has_value())
     return Outcome::StoppedEarly("stopped: " + settings.field + " is not written");
-  field->description = Description(settings, space);
-  written.error = settings.inverse ? MeasureField(*field, frame, points.target, points.source)
-                                   : MeasureField(*field, frame, points.source, points.target);
-  if (Status status = (*format)->write(settings.field, *field); !status.ok()) {
-    return Outcome::BadInput(status);
-  }
-  observer->OnField(written);
+  field->description = Description(settings, format.space);
+  about.error = settings.inverse ? MeasureField(*field, frame, points->target, points->source)
+                                 : MeasureField(*field, frame, points->source, points->target);
+  made->field = *std::move(field);
   return Outcome::Done();
 }
 
 }  // namespace
+
+Outcome MakeField(const FieldSettings& settings,
+                  const FieldFormat& format,
+                  const std::string& warp_path,
+                  const Warp& warp,
+                  const PointCloud* cloud,
+                  FieldObserver* observer,
+                  MadeField* made) {
+  const auto space = SpaceWarp::Create(warp, settings.num_threads);
+  if (!space.ok()) return BadWarp(warp_path, space.status());
+  return FillField(settings, format, warp_path, **space, cloud, observer, made);
+}
 
 Outcome RunField(const FieldSettings& settings,
                  const std::string& warp_path,
                  const Warp& warp,
                  const PointCloud* cloud,
                  FieldObserver* observer) {
-  const StatusOr<std::unique_ptr<const SpaceWarp>> space =
-      SpaceWarp::Create(warp, settings.num_threads);
-  if (!space.ok()) {
-    return Outcome::BadInput(Status::Error(warp_path + ": " + space.status().message()));
-  }
+  const auto space = SpaceWarp::Create(warp, settings.num_threads);
+  if (!space.ok()) return BadWarp(warp_path, space.status());
   if (!settings.rigid.empty()) {
     Status status = PrepareOutput(settings.rigid);
     if (status.ok()) status = WriteRigid(settings, warp, observer);
     if (!status.ok()) return Outcome::BadInput(status);
   }
   if (settings.field.empty()) return Outcome::Done();
-  const StatusOr<MovedPoints> points = cloud == nullptr
-                                           ? StatusOr<MovedPoints>(MoveNodesAndFinish(**space))
-                                           : MoveCloud(warp, *cloud, settings.num_threads);
-  if (!points.ok()) {
-    return Outcome::BadInput(Status::Error(warp_path + ": " + points.status().message()));
+  const StatusOr<const FieldFormat*> format = FieldFormatOf(settings.field);
+  if (!format.ok()) return Outcome::Usage(format.status().message());
+  if (Status status = PrepareOutput(settings.field); !status.ok()) {
+    return Outcome::BadInput(status);
   }
-  return WriteField(settings, **space, *points, observer);
+  MadeField made;
+  Outcome outcome = FillField(settings, **format, warp_path, **space, cloud, observer, &made);
+  if (!outcome.done()) return outcome;
+  if (Status status = (*format)->write(settings.field, made.field); !status.ok()) {
+    return Outcome::BadInput(status);
+  }
+  observer->OnField(made.about);
+  return Outcome::Done();
 }
 
 }  // namespace ceres_ed

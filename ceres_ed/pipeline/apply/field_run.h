@@ -5,6 +5,7 @@
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/io/field/displacement_field.h>
+#include <ceres_ed/io/field/field_format.h>
 #include <ceres_ed/pipeline/apply/field_settings.h>
 #include <ceres_ed/pipeline/apply/warp_field.h>
 #include <ceres_ed/pipeline/outcome.h>
@@ -39,6 +40,22 @@ class FieldObserver : public RunObserver {
   // `sentence` says what the file of the placement maps.
   virtual void OnRigid(const std::string& /*sentence*/) {}
 };
+
+// A field in the coordinates of a file, and what is known of it.
+struct MadeField {
+  DisplacementField field;
+  WrittenField about;
+};
+
+// Fills the grid that `settings` ask for as a file of `format` has it, into `made`, and writes
+// nothing; `settings.field` names it in messages. The other arguments are those of RunField().
+Outcome MakeField(const FieldSettings& settings,
+                  const FieldFormat& format,
+                  const std::string& warp_path,
+                  const Warp& warp,
+                  const PointCloud* cloud,
+                  FieldObserver* observer,
+                  MadeField* made);
 
 // Writes the files that `settings` name. `warp_path` names the warp in messages. `cloud`, if it is
 // not null, is a cloud in the frame of the source: the grid surrounds it, and the error of the

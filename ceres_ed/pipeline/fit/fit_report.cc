@@ -282,11 +282,7 @@ ordered_json FitReport(const FitRun& run) {
       {"backend", BackendReport()}};
 }
 
-ordered_json FitResultReport(const FitInput& input, const FitResult& result) {
-  const Verdict verdict = JudgeFit({&result,
-                                    Diagonal(input.source.points),
-                                    Diagonal(input.target.points),
-                                    MeasureLandmarks(input, result).rms});
+ordered_json FitResultReport(const FitResult& result, const Verdict& verdict) {
   return {{"status", NameOf(result.status)},
           {"message", result.message},
           {"nodes", NodesReport(result)},

@@ -20,9 +20,9 @@ std::vector<std::string> FitWarnings(const FitRun& run);
 // the source's unit. "noise" is the standard deviation of the target's noise across its surface.
 nlohmann::ordered_json FitReport(const FitRun& run);
 
-// Returns those fields that follow from the input and the result alone, of a fit without files:
+// Returns those fields that follow from the result and its verdict alone, of a fit without files:
 // status, message, nodes, energies, unmatched shares, covariance, verdict, times and warnings.
-nlohmann::ordered_json FitResultReport(const FitInput& input, const FitResult& result);
+nlohmann::ordered_json FitResultReport(const FitResult& result, const Verdict& verdict);
 
 }  // namespace ceres_ed
 

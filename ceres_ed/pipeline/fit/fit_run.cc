@@ -81,19 +81,11 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
 
 LandmarkErrors MeasureLandmarks(const FitRun& run) {
   const FitFiles& files = *run.files;
-  std::vector<LandmarkError> errors;
-  if (run.settings->landmark_use == LandmarkUse::kFit) errors = MeasureNamedLandmarks(run);
+  std::vector<LandmarkError> named;
+  if (run.settings->landmark_use == LandmarkUse::kFit) named = MeasureNamedLandmarks(run);
   const std::size_t by_index =
       files.named.pairs.empty() ? files.input.landmarks.size() : files.named_begin;
-  for (std::size_t i = 0; i < by_index && !run.result->points.empty(); ++i) {
-    const Landmark& landmark = files.input.landmarks[i];
-    LandmarkError error;
-    error.after = (run.result->points[landmark.point] - landmark.position).norm();
-    errors.push_back(error);
-  }
-  LandmarkErrors summary = SummarizeLandmarks(errors, &LandmarkError::after);
-  if (errors.empty()) summary.count = static_cast<int>(by_index);
-  return summary;
+  return MeasureLandmarks(files.input, by_index, std::move(named), *run.result);
 }
 
 std::vector<LandmarkError> MeasureNamedLandmarks(const FitRun& run) {
@@ -117,16 +109,18 @@ LandmarkErrors SummarizeLandmarks(const std::vector<LandmarkError>& errors,
   return summary;
 }
 
-LandmarkErrors MeasureLandmarks(const FitInput& input, const FitResult& result) {
-  std::vector<LandmarkError> errors;
-  for (const Landmark& landmark : input.landmarks) {
-    if (result.points.empty()) break;
+LandmarkErrors MeasureLandmarks(const FitInput& input,
+                                std::size_t by_index,
+                                std::vector<LandmarkError> named,
+                                const FitResult& result) {
+  for (std::size_t i = 0; i < by_index && !result.points.empty(); ++i) {
+    const Landmark& landmark = input.landmarks[i];
     LandmarkError error;
     error.after = (result.points[landmark.point] - landmark.position).norm();
-    errors.push_back(error);
+    named.push_back(error);
   }
-  LandmarkErrors summary = SummarizeLandmarks(errors, &LandmarkError::after);
-  summary.count = static_cast<int>(input.landmarks.size());
+  LandmarkErrors summary = SummarizeLandmarks(named, &LandmarkError::after);
+  if (named.empty()) summary.count = static_cast<int>(by_index);
   return summary;
 }
 

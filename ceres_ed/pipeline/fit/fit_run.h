@@ -11,6 +11,7 @@
 #include <ceres_ed/registration/fit_types.h>
 #include <ceres_ed/util/timer.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -45,8 +46,13 @@ struct LandmarkErrors {
 // the fit has no points.
 LandmarkErrors MeasureLandmarks(const FitRun& run);
 
-// Returns the same of a fit without files.
-LandmarkErrors MeasureLandmarks(const FitInput& input, const FitResult& result);
+// Returns the same of a fit without files: of the first `by_index` landmarks of `input`, and of
+// those that are named on both surfaces.
+LandmarkErrors MeasureLandmarks(const FitInput& input,
+                                std::size_t by_index,
+                                std::vector<LandmarkError> named,
+                                const FitResult& result);
+
 // Returns the errors of the landmarks that are named on both surfaces, whether they drew the fit or
 // not; empty if there are none, or the fit has no warp.
 std::vector<LandmarkError> MeasureNamedLandmarks(const FitRun& run);

@@ -24,14 +24,6 @@ constexpr double kFarShare = 0.05;
 
 using Positions = std::vector<Eigen::Vector3d>;
 
-// One surface and its landmarks.
-struct Side {
-  std::string mesh;
-  std::string landmarks;
-  const LandmarkSurface& surface;
-  LandmarkSide columns;
-};
-
 double MedianDistance(const std::vector<NamedLandmark>& points,
                       const KdTree& tree,
                       bool is_turned) {
@@ -48,7 +40,7 @@ double MedianDistance(const std::vector<NamedLandmark>& points,
 }
 
 // Warns of landmarks that do not lie at their surface, with the likely reason.
-void CheckDistances(const Side& side,
+void CheckDistances(const SurfaceLandmarks& side,
                     const std::vector<NamedLandmark>& points,
                     std::vector<std::string>* warnings) {
   const double diagonal = Diagonal(side.surface.cloud.points);
@@ -60,26 +52,25 @@ void CheckDistances(const Side& side,
   constexpr double kMuchNearer = 0.25;
   const bool is_turned = turned < kMuchNearer * median;
   const int percent = static_cast<int>(std::lround(100.0 * median / diagonal));
-  warnings->push_back(side.landmarks + ": in the median the landmarks are " +
-                      std::to_string(percent) + " % of the diagonal away from the points of " +
-                      side.mesh +
+  warnings->push_back(side.name + ": in the median the landmarks are " + std::to_string(percent) +
+                      " % of the diagonal away from the points of " + side.mesh +
                       (is_turned ? ", and close with x and y turned: is that mesh in RAS where the "
                                    "file says LPS, or the other way round (--mesh_space)?"
                                  : ": do both have the same frame and unit?"));
 }
 
-StatusOr<std::vector<NamedLandmark>> LoadSide(const Side& side,
-                                              MeshSpace setting,
-                                              std::vector<std::string>* warnings) {
-  StatusOr<LandmarkFile> file = ReadLandmarkFile(side.landmarks, side.columns);
-  if (!file.ok()) return file.status();
-  warnings->insert(warnings->end(), file->warnings.begin(), file->warnings.end());
+// Returns the landmarks in the space of their mesh.
+std::vector<NamedLandmark> InSpaceOfMesh(const SurfaceLandmarks& side,
+                                         MeshSpace setting,
+                                         std::vector<std::string>* warnings) {
+  warnings->insert(warnings->end(), side.file.warnings.begin(), side.file.warnings.end());
   const AnatomicalSpace space = SpaceOfMesh(setting, side.surface.document);
-  for (NamedLandmark& point : file->points) {
-    point.position = BetweenSpaces(point.position, file->space, space);
+  std::vector<NamedLandmark> points = side.file.points;
+  for (NamedLandmark& point : points) {
+    point.position = BetweenSpaces(point.position, side.file.space, space);
   }
-  CheckDistances(side, file->points, warnings);
-  return std::move(file->points);
+  CheckDistances(side, points, warnings);
+  return points;
 }
 
 // Returns "'a', 'b' and 3 more".
@@ -123,24 +114,16 @@ AnatomicalSpace SpaceOfMesh(MeshSpace setting, const PlyDocument& document) {
   return own == AnatomicalSpace::kUnknown ? AnatomicalSpace::kLps : own;
 }
 
-StatusOr<NamedLandmarks> LoadNamedLandmarks(const FitSettings& settings,
-                                            const LandmarkSurface& source,
-                                            const LandmarkSurface& target) {
+StatusOr<NamedLandmarks> MatchLandmarks(MeshSpace setting,
+                                        const SurfaceLandmarks& source,
+                                        const SurfaceLandmarks& target) {
   NamedLandmarks named;
-  const auto on_source =
-      LoadSide({settings.source, settings.source_landmarks, source, LandmarkSide::kSource},
-               settings.mesh_space,
-               &named.warnings);
-  if (!on_source.ok()) return on_source.status();
-  const auto on_target =
-      LoadSide({settings.target, settings.target_landmarks, target, LandmarkSide::kTarget},
-               settings.mesh_space,
-               &named.warnings);
-  if (!on_target.ok()) return on_target.status();
+  const std::vector<NamedLandmark> on_source = InSpaceOfMesh(source, setting, &named.warnings);
+  const std::vector<NamedLandmark> on_target = InSpaceOfMesh(target, setting, &named.warnings);
   std::map<std::string, Eigen::Vector3d> partners;
-  for (const NamedLandmark& point : *on_target) partners[point.name] = point.position;
+  for (const NamedLandmark& point : on_target) partners[point.name] = point.position;
   std::set<std::string> used;
-  for (const NamedLandmark& point : *on_source) {
+  for (const NamedLandmark& point : on_source) {
     const auto partner = partners.find(point.name);
     if (partner == partners.end()) {
       named.only_source.push_back(point.name);
@@ -149,17 +132,32 @@ StatusOr<NamedLandmarks> LoadNamedLandmarks(const FitSettings& settings,
     used.insert(point.name);
     named.pairs.push_back({point.name, point.position, partner->second});
   }
-  for (const NamedLandmark& point : *on_target) {
+  for (const NamedLandmark& point : on_target) {
     if (used.count(point.name) == 0) named.only_target.push_back(point.name);
   }
   if (named.pairs.empty()) {
-    return Status::Error(settings.source_landmarks + " and " + settings.target_landmarks +
+    return Status::Error(source.name + " and " + target.name +
                          ": no name is in both, expected the same names: " +
                          ListOf(named.only_source) + " against " + ListOf(named.only_target));
   }
-  WarnOfSingles(settings.source_landmarks, named.only_source, &named.warnings);
-  WarnOfSingles(settings.target_landmarks, named.only_target, &named.warnings);
+  WarnOfSingles(source.name, named.only_source, &named.warnings);
+  WarnOfSingles(target.name, named.only_target, &named.warnings);
   return named;
+}
+
+StatusOr<NamedLandmarks> LoadNamedLandmarks(const FitSettings& settings,
+                                            const LandmarkSurface& source,
+                                            const LandmarkSurface& target) {
+  StatusOr<LandmarkFile> on_source =
+      ReadLandmarkFile(settings.source_landmarks, LandmarkSide::kSource);
+  if (!on_source.ok()) return on_source.status();
+  StatusOr<LandmarkFile> on_target =
+      ReadLandmarkFile(settings.target_landmarks, LandmarkSide::kTarget);
+  if (!on_target.ok()) return on_target.status();
+  return MatchLandmarks(
+      settings.mesh_space,
+      {settings.source, settings.source_landmarks, source, *std::move(on_source)},
+      {settings.target, settings.target_landmarks, target, *std::move(on_target)});
 }
 
 std::vector<Landmark> LandmarkConstraints(const std::vector<LandmarkPair>& pairs,

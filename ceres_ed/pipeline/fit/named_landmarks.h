@@ -45,9 +45,22 @@ struct LandmarkSurface {
 // LPS.
 AnatomicalSpace SpaceOfMesh(MeshSpace setting, const PlyDocument& document);
 
-// Reads settings.source_landmarks and settings.target_landmarks, and matches them by name.
-// Positions in RAS or LPS are turned into the SpaceOfMesh() of their mesh. It is an error if no
-// name is in both files.
+// The landmarks of one surface.
+struct SurfaceLandmarks {
+  // The names of the mesh and of its landmarks in messages.
+  std::string mesh;
+  std::string name;
+  const LandmarkSurface& surface;
+  LandmarkFile file;
+};
+
+// Matches landmarks by name. Positions in RAS or LPS are turned into the SpaceOfMesh() of their
+// mesh. It is an error if no name is on both surfaces.
+StatusOr<NamedLandmarks> MatchLandmarks(MeshSpace setting,
+                                        const SurfaceLandmarks& source,
+                                        const SurfaceLandmarks& target);
+
+// Reads settings.source_landmarks and settings.target_landmarks, and matches them.
 StatusOr<NamedLandmarks> LoadNamedLandmarks(const FitSettings& settings,
                                             const LandmarkSurface& source,
                                             const LandmarkSurface& target);
