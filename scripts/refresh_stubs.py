@@ -17,7 +17,8 @@ ROOT = Path(__file__).resolve().parent.parent
 STUB = ROOT / "ceres_ed" / "python" / "ceres_ed" / "_core.pyi"
 COLUMNS = 100
 # A class of options, and the functions that take them as keywords: of a class, or of the module.
-USERS = {"GraphOptions": [("Graph", "build")],
+USERS = {"FieldOptions": [("Warp", "field"), ("Warp", "write_field")],
+         "GraphOptions": [("Graph", "build")],
          "FitOptions": [(None, "fit"), ("SurfaceFitter", "__init__")],
          "TrackerOptions": [("Tracker", "__init__")],
          "SequenceOptions": [(None, "open_sequence")]}

@@ -36,7 +36,7 @@ StatusOr<FitResult> FitWithoutLock(const Documents& documents,
   }
   const py::gil_scoped_release release;
   StatusOr<FitResult> result = Fit(fitted->input, options, energies.registry);
-  Judge(documents, options.should_stop, result, fitted);
+  Judge(documents, options.rigid.initial_scale, options.should_stop, result, fitted);
   return result;
 }
 
@@ -50,6 +50,10 @@ std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
                                            const FitOptions* options,
                                            const py::object& progress,
                                            const py::object& should_stop,
+                                           const py::object& source_landmarks,
+                                           const py::object& target_landmarks,
+                                           const std::string& landmark_use,
+                                           const std::string& mesh_space,
                                            const py::kwargs& changes) {
   auto fitted = std::make_unique<FittedSurface>();
   FitInput& input = fitted->input;
@@ -65,6 +69,8 @@ std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
     input.target = std::move(*target_surface).Take();
   }
   input.landmarks = ToLandmarks(landmarks);
+  const std::vector<std::string> warnings = AddNamedLandmarks(
+      {source_landmarks, target_landmarks, landmark_use, mesh_space}, documents, fitted.get());
   if (!fixed.is_none()) input.fixed_points = ToIndices(fixed, "fixed");
   FitOptions changed = options != nullptr ? *options : FitOptions();
   OptionsClass<FitOptions>::Apply("fit", changes, &changed);
@@ -76,7 +82,7 @@ std::unique_ptr<FittedSurface> FitSurfaces(const py::object& source,
       FitWithoutLock(documents, changed, added, progress, &callbacks, fitted.get());
   added.errors->Rethrow();
   callbacks.Rethrow();
-  Conclude(std::move(result), fitted.get());
+  Conclude(std::move(result), warnings, fitted.get());
   return fitted;
 }
 
@@ -106,6 +112,19 @@ py::list Terms(const FittedSurface& self) {
     terms.append(entry);
   }
   return terms;
+}
+
+py::list LandmarkErrorsOf(const FittedSurface& self) {
+  py::list landmarks;
+  for (std::size_t i = 0; i < self.landmark_errors.size(); ++i) {
+    py::dict entry;
+    entry["name"] = self.landmark_pairs[i].name;
+    entry["before"] = self.landmark_errors[i].before;
+    entry["rigid"] = self.landmark_errors[i].rigid;
+    entry["after"] = self.landmark_errors[i].after;
+    landmarks.append(entry);
+  }
+  return landmarks;
 }
 
 Graph GraphOf(const FittedSurface& self) {
@@ -244,6 +263,11 @@ void BindNumbers(ResultClass* result) {
       "terms",
       &Terms,
       "The parts of final_energy, a dict for each energy: name, weighted, raw, residuals.");
+  result->def_property_readonly(
+      "landmark_errors",
+      &LandmarkErrorsOf,
+      "How far landmarks that are named on both surfaces are off, in the target's unit, a dict for "
+      "each: name, before, rigid (after the rigid placement), after.");
 }
 
 // How the fit went, and what it found out.
@@ -342,6 +366,10 @@ Arrays of points are views of the result's own memory and keep it alive.)");
              py::arg("options") = nullptr,
              py::arg("progress") = py::none(),
              py::arg("should_stop") = py::none(),
+             py::arg("source_landmarks") = py::none(),
+             py::arg("target_landmarks") = py::none(),
+             py::arg("landmark_use") = "fit",
+             py::arg("mesh_space") = "auto",
              R"(Deforms `source` to lie on `target`, or to bring its landmarks to their positions.
 
 Other Python threads run during the fit. Ctrl-C, and an exception in `progress` or `should_stop`,
@@ -360,6 +388,12 @@ Args:
   progress: a function that is called with a FitProgress after each round.
   should_stop: a function that is called often, without arguments. If it returns True, the fit ends
     with the best result so far.
+  source_landmarks, target_landmarks: points with the same names on both surfaces: Landmarks,
+    {name: (x, y, z)}, or the path of a file (.mrk.json, .fcsv, .json, .pts, .csv). They need not be
+    vertices; FitResult.landmark_errors says how far each of them is off.
+  landmark_use: 'fit': they draw the fit; 'measure': they only measure it.
+  mesh_space: 'LPS' or 'RAS': the axes of both surfaces, into which landmarks of the other space are
+    turned. 'auto': what a surface's file says, otherwise LPS.
 
 Returns: a FitResult.
 Raises:

@@ -20,6 +20,12 @@ bool EndsWith(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
+Theme ToTheme(const std::string& name) {
+  const std::optional<Theme> theme = FindByName<Theme>(name);
+  if (!theme) throw py::value_error("theme is '" + name + "', expected 'light' or 'dark'");
+  return *theme;
+}
+
 LookOutputs OutputsOf(const std::string& path, const std::string& theme) {
   LookOutputs outputs;
   if (EndsWith(path, ".html")) {
@@ -29,10 +35,29 @@ LookOutputs OutputsOf(const std::string& path, const std::string& theme) {
   } else {
     throw py::value_error(path + ": expected a name that ends in .html or .png");
   }
-  const std::optional<Theme> known = FindByName<Theme>(theme);
-  if (!known) throw py::value_error("theme is '" + theme + "', expected 'light' or 'dark'");
-  outputs.theme = *known;
+  outputs.theme = ToTheme(theme);
   return outputs;
+}
+
+nlohmann::ordered_json ReportOf(const FittedSurface& fit) {
+  nlohmann::ordered_json report = FitResultReport(fit.result, fit.verdict);
+  report["program"] = "the Python package";
+  report["version"] = kVersion;
+  return report;
+}
+
+py::bytes PictureOf(const FittedSurface& fit, int width, const std::string& theme_name) {
+  constexpr int kLowest = 200;
+  constexpr int kHighest = 8000;
+  if (width < kLowest || width > kHighest) {
+    throw py::value_error("width is " + std::to_string(width) + ", expected 200 to 8000 pixels");
+  }
+  const Theme theme = ToTheme(theme_name);
+  const auto draw = [&] {
+    const py::gil_scoped_release release;
+    return FitPng(ReportOf(fit), MakeFitView(PartsOfFit(fit.input, fit.result, {})), theme, width);
+  };
+  return draw();
 }
 
 void WriteReportOf(const FittedSurface& fit,
@@ -51,10 +76,7 @@ void WriteReportOf(const FittedSurface& fit,
     const py::gil_scoped_release release;
     FitParts parts = PartsOfFit(fit.input, fit.result, {});
     if (truth) parts.truth = &(**truth).points;
-    nlohmann::ordered_json report = FitResultReport(fit.input, fit.result);
-    report["program"] = "the Python package";
-    report["version"] = kVersion;
-    return WriteFitLook(outputs, report, MakeFitView(parts));
+    return WriteFitLook(outputs, ReportOf(fit), MakeFitView(parts));
   };
   ThrowUnlessWritten(write());
 }
@@ -76,6 +98,16 @@ Args:
   path: .html, a page for a browser; or .png, a picture of the same views.
   truth: a surface with the true positions of the points, in their order (see Cloud).
   theme: 'light' or 'dark', the ground of a picture.)");
+  result.attr("picture") =
+      py::cpp_function(&PictureOf,
+                       py::name("picture"),
+                       py::is_method(result),
+                       py::kw_only(),
+                       py::arg("width") = 900,
+                       py::arg("theme") = "light",
+                       R"(Returns the picture of report() as the bytes of a PNG file.
+
+It is `width` pixels wide (200 to 8000). Empty if this build draws no pictures.)");
 }
 
 }  // namespace ceres_ed::python

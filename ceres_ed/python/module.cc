@@ -15,7 +15,9 @@ PYBIND11_MODULE(_core, module) {
   ceres_ed::python::BindEnergies(module);
   ceres_ed::python::BindPointEnergy(module);
   ceres_ed::python::BindGraph(module);
+  ceres_ed::python::BindLandmarks(module);
   ceres_ed::python::BindWarp(module);
+  ceres_ed::python::BindField(module);
   ceres_ed::python::BindFitOptions(module);
   ceres_ed::python::BindVerdict(module);
   ceres_ed::python::BindFit(module);

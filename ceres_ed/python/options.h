@@ -5,6 +5,7 @@
 #include <ceres_ed/util/nearest_word.h>
 #include <ceres_ed/util/options.h>
 
+#include <set>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -21,7 +22,11 @@ namespace py = pybind11;
 template <typename Options>
 class OptionsClass {
  public:
-  OptionsClass(py::module_& module, const char* name, const char* doc)
+  // Rows that `left_out` names are no attributes.
+  OptionsClass(py::module_& module,
+               const char* name,
+               const char* doc,
+               const std::set<std::string>& left_out = {})
       : class_(module, name, doc), name_(name) {
     class_.def(py::init([name = name_](const py::kwargs& changes) {
                  Options options;
@@ -49,6 +54,7 @@ class OptionsClass {
     py::dict words;
     for (const Row& row : Options::Rows()) {
       if (row.option.group == OptionGroup::kInternal) continue;
+      if (left_out.count(row.option.name) > 0) continue;
       AddAttribute(row);
       names.append(row.option.name);
       for (const SpecialValue& special : row.option.specials)
@@ -67,7 +73,7 @@ class OptionsClass {
     for (const auto& [name, value] : changes) {
       if (!names.contains(name)) {
         throw py::type_error(caller + "() knows no '" + std::string(py::str(name)) + "'" +
-                             Suggestion(std::string(py::str(name))) + "; its options are " +
+                             Suggestion(std::string(py::str(name)), names) + "; its options are " +
                              std::string(py::str(", ").attr("join")(names).cast<std::string>()));
       }
       py::setattr(self, name, value);
@@ -128,11 +134,9 @@ class OptionsClass {
                          expected);
   }
 
-  static std::string Suggestion(const std::string& misspelt) {
+  static std::string Suggestion(const std::string& misspelt, const py::tuple& names) {
     std::vector<std::string> known;
-    for (const Row& row : Options::Rows()) {
-      if (row.option.group != OptionGroup::kInternal) known.push_back(row.option.name);
-    }
+    for (const py::handle name : names) known.push_back(name.cast<std::string>());
     const std::string nearest = NearestWord(misspelt, known);
     return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
   }

@@ -158,7 +158,13 @@ CERES_ED_FIELDS(FitResult,
 CERES_ED_FIELDS(VerdictReason, code, text, value, bound)
 CERES_ED_FIELDS(Verdict, grade, reasons, advice)
 CERES_ED_FIELDS(Finding, code, severity, text, fix, value)
-CERES_ED_FIELDS(FittedSurface, input, colors, result, verdict, checks)
+CERES_ED_FIELDS(LandmarkPair, name, source, target)
+CERES_ED_FIELDS(LandmarkError, before, rigid, after)
+CERES_ED_FIELDS(FittedSurface, input, colors, result, verdict, checks, pairs, errors, num_by_index)
+CERES_ED_FIELDS(NamedLandmark, name, position)
+CERES_ED_FIELDS(LandmarkFile::Place, begin, size)
+CERES_ED_FIELDS(LandmarkFile, points, space, warnings, text, places, pointers)
+CERES_ED_FIELDS(Landmarks, points, space, path, file)
 
 #undef CERES_ED_FIELDS
 
@@ -207,11 +213,13 @@ template py::bytes Pickle(const Cloud&);
 template py::bytes Pickle(const EnergySpec&);
 template py::bytes Pickle(const FittedSurface&);
 template py::bytes Pickle(const Graph&);
+template py::bytes Pickle(const Landmarks&);
 template py::bytes Pickle(const Warp&);
 template std::unique_ptr<Cloud> Unpickle(const py::bytes&);
 template std::unique_ptr<EnergySpec> Unpickle(const py::bytes&);
 template std::unique_ptr<FittedSurface> Unpickle(const py::bytes&);
 template std::unique_ptr<Graph> Unpickle(const py::bytes&);
+template std::unique_ptr<Landmarks> Unpickle(const py::bytes&);
 template std::unique_ptr<Warp> Unpickle(const py::bytes&);
 
 }  // namespace ceres_ed::python

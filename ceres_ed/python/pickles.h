@@ -5,6 +5,7 @@
 #include <ceres_ed/energy/energy_spec.h>
 #include <ceres_ed/graph/warp.h>
 #include <ceres_ed/python/graphs.h>
+#include <ceres_ed/python/landmarks.h>
 #include <ceres_ed/python/surfaces.h>
 
 #include <memory>
@@ -33,11 +34,13 @@ extern template pybind11::bytes Pickle(const Cloud&);
 extern template pybind11::bytes Pickle(const EnergySpec&);
 extern template pybind11::bytes Pickle(const FittedSurface&);
 extern template pybind11::bytes Pickle(const Graph&);
+extern template pybind11::bytes Pickle(const Landmarks&);
 extern template pybind11::bytes Pickle(const Warp&);
 extern template std::unique_ptr<Cloud> Unpickle(const pybind11::bytes&);
 extern template std::unique_ptr<EnergySpec> Unpickle(const pybind11::bytes&);
 extern template std::unique_ptr<FittedSurface> Unpickle(const pybind11::bytes&);
 extern template std::unique_ptr<Graph> Unpickle(const pybind11::bytes&);
+extern template std::unique_ptr<Landmarks> Unpickle(const pybind11::bytes&);
 extern template std::unique_ptr<Warp> Unpickle(const pybind11::bytes&);
 
 }  // namespace ceres_ed::python

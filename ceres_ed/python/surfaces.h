@@ -4,6 +4,7 @@
 
 #include <ceres_ed/geometry/point_cloud.h>
 #include <ceres_ed/io/cloud_io.h>
+#include <ceres_ed/pipeline/fit/named_landmarks.h>
 #include <ceres_ed/pipeline/verdict.h>
 #include <ceres_ed/preflight/finding.h>
 #include <ceres_ed/python/colors.h>
@@ -35,6 +36,11 @@ struct FittedSurface {
   FitResult result;
   Verdict verdict;
   std::vector<Finding> checks;
+  // Landmarks that are named on both surfaces, and how far each of them is off. If they draw the
+  // fit, their constraints stand behind the first `num_by_index` landmarks of `input`.
+  std::vector<LandmarkPair> landmark_pairs;
+  std::vector<LandmarkError> landmark_errors;
+  std::size_t num_by_index = 0;
 };
 
 // Reads a file. Raises an OSError if it cannot be read, and a ValueError with the library's

@@ -1,5 +1,6 @@
 """Options are keywords that completion and help see, and results show themselves."""
 import inspect
+import io
 import os
 
 import numpy as np
@@ -69,13 +70,18 @@ def test_a_notebook_shows_a_table_and_a_picture(grid, hill):
     shown = result._repr_html_()
     for text in (result.status, result.verdict.grade, str(len(result.graph)), "seconds"):
         assert text in shown
-    try:
-        import matplotlib  # noqa: F401
-    except ImportError:
-        assert "<img" not in shown
-    else:
+    picture = result.picture(width=400)
+    if picture:
+        # The picture of the report: what PIL sees in it has the width and more than one colour.
+        image = pytest.importorskip("PIL.Image").open(io.BytesIO(picture))
+        assert image.width == 400 and len(image.convert("RGB").getcolors(1 << 20)) > 20
+        assert result._repr_png_().startswith(b"\x89PNG")
         assert "data:image/png;base64," in shown
-        assert len(shown) < 100_000
+        assert len(shown) < 300_000
+    else:
+        assert "<img" not in shown and result._repr_png_() is None
+    with pytest.raises(ValueError, match="width is 10, expected 200"):
+        result.picture(width=10)
     assert "p95" in ceres_ed.evaluate(result, hill)._repr_html_()
 
 

@@ -67,6 +67,7 @@ def parameters_of_module(function):
 def options_of(node):
     """The class whose options are the keywords of a function that takes `**kwargs`."""
     return {"fit": ceres_ed.FitOptions, "build": ceres_ed.GraphOptions,
+            "field": ceres_ed.FieldOptions, "write_field": ceres_ed.FieldOptions,
             "Tracker": ceres_ed.TrackerOptions, "SurfaceFitter": ceres_ed.FitOptions,
             "open_sequence": ceres_ed.SequenceOptions}.get(node)
 
@@ -143,7 +144,8 @@ def test_every_member_is_there_with_its_parameters(name):
                 assert [row for row, _ in found] == list(kind.names) and rest is None
             else:
                 check_parameters(methods[key][-1], function,
-                                 options_of(name if key == "__init__" else key if key == "build" else None))
+                                 options_of(name if key == "__init__" else
+                                            key if key in ("build", "field", "write_field") else None))
 
 
 @pytest.mark.parametrize("name", CLASSES)
@@ -183,6 +185,11 @@ more = ceres_ed.SurfaceFitter(source, mode="batch").fit("b.ply").verdict.grade
 for frame in ceres_ed.open_sequence("folder", step=2):
     status = tracker.track(frame.depth, frame.color, frame.pose).status
 figures = ceres_ed.evaluate_sequence("folder", "result")["truth"]
+marks = ceres_ed.Landmarks.load("a.mrk.json").to("LPS")
+result = ceres_ed.fit("a.ply", source_landmarks=marks, target_landmarks="b.fcsv", mesh_space="RAS")
+near: list[float] = [error["after"] for error in result.landmark_errors]
+vectors: NDArray[np.float32] = result.warp.field(source, inverse=True, unit="cm").vectors
+picture: bytes = result.picture(width=300)
 mesh = ceres_ed.Cloud.from_trimesh(result.to_trimesh()).colors
 '''
 MISUSE = [
@@ -194,6 +201,8 @@ MISUSE = [
     'ceres_ed.fit(points, threads="all")',
     'ceres_ed.PointEnergy(lambda points: points)',
     'ceres_ed.open_sequence("folder", setp=2)',
+    'marks.to("LSP")',
+    'result.warp.write_field("a.nrrd", unit="km")',
 ]
 
 

@@ -14,15 +14,16 @@ cloud of trimesh or Open3D, or the path of a file.
 """
 from . import _meshes, _notebook
 from ._core import (
-    Camera, Cloud, DistanceStatistics, Energy, EnergyInfo, EnergyParameter, Evaluation, Finding,
-    FitOptions, FitProgress, FitResult, Frame, FrameIterator, FrameReport, FrameSequence, Graph, GraphOptions,
-    MapSnapshot, PointEnergy, SequenceOptions, ShapeChange, SurfaceFitter, Tracker, TrackerOptions,
+    Camera, Cloud, DistanceStatistics, Energy, EnergyInfo, EnergyParameter, Evaluation, Field,
+    FieldOptions, Finding, FitOptions, FitProgress, FitResult, Frame, FrameIterator, FrameReport,
+    FrameSequence, Graph, GraphOptions, Landmarks, MapSnapshot, PointEnergy, SequenceOptions, ShapeChange, SurfaceFitter, Tracker, TrackerOptions,
     Verdict, Warp, __version__, backend, evaluate, evaluate_sequence, list_energies, load, save)
 from ._signatures import fit, open_sequence
 
 __all__ = [
     "Camera", "Cloud", "DistanceStatistics", "Energy", "EnergyInfo", "EnergyParameter",
-    "Evaluation", "Finding", "FitOptions", "FitProgress", "FitResult", "Frame", "FrameIterator", "FrameReport",
-    "FrameSequence", "Graph", "GraphOptions", "MapSnapshot", "PointEnergy", "SequenceOptions",
+    "Evaluation", "Field", "FieldOptions", "Finding", "FitOptions", "FitProgress", "FitResult",
+    "Frame", "FrameIterator", "FrameReport", "FrameSequence", "Graph", "GraphOptions", "Landmarks",
+    "MapSnapshot", "PointEnergy", "SequenceOptions",
     "ShapeChange", "SurfaceFitter", "Tracker", "TrackerOptions", "Verdict", "Warp", "__version__", "backend",
     "evaluate", "evaluate_sequence", "fit", "list_energies", "load", "open_sequence", "save"]

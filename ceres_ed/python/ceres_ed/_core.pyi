@@ -31,7 +31,10 @@ PointFunction = Union[
              tuple[ArrayLike, ArrayLike]]]
 AnyEnergy = Union[str, Energy, PointEnergy]
 Energies = Union[AnyEnergy, Sequence[AnyEnergy]]
-Landmarks = Union[Mapping[int, ArrayLike], tuple[ArrayLike, ArrayLike]]
+PointPositions = Union[Mapping[int, ArrayLike], tuple[ArrayLike, ArrayLike]]
+AnyLandmarks = Union[Landmarks, dict[str, Any], Path]
+MeshSpace = Literal["auto", "LPS", "RAS"]
+Space = Literal["LPS", "RAS"]
 
 
 class HasVertices(Protocol):
@@ -193,6 +196,26 @@ class Graph:
     def __len__(self) -> int: ...
 
 
+class Landmarks:
+    def __init__(self, points: dict[str, Any], space: Optional[Space] = None) -> None: ...
+    @staticmethod
+    def load(path: Path, side: Literal["source", "target"] = "source") -> Landmarks: ...
+    def save(self, path: Path) -> None: ...
+    def at(self, positions: ArrayLike) -> Landmarks: ...
+    def to(self, space: Space) -> Landmarks: ...
+    def keys(self) -> list[str]: ...
+    @property
+    def names(self) -> list[str]: ...
+    @property
+    def positions(self) -> NDArray[np.float64]: ...
+    @property
+    def space(self) -> Optional[Space]: ...
+    @property
+    def warnings(self) -> list[str]: ...
+    def __getitem__(self, name: str) -> NDArray[np.float64]: ...
+    def __len__(self) -> int: ...
+
+
 class Warp:
     affine: NDArray[np.float64]
     translation: NDArray[np.float64]
@@ -211,6 +234,23 @@ class Warp:
     def apply(
             self, points: Surface, normals: ArrayLike, *,
             threads: Threads = 1) -> tuple[NDArray[np.float64], NDArray[np.float64]]: ...
+    def field(
+            self, around: Optional[Surface] = None, options: Optional[FieldOptions] = None, *,
+            inverse: bool = ..., spacing: Union[float, Literal["auto"]] = ...,
+            frame: Literal["lps", "ras"] = ..., unit: Literal["mm", "cm", "m"] = ...,
+            margin: float = ..., bounds: str = ..., like: str = ...,
+            no_inverse: Literal["nan", "zero", "nearest"] = ..., max_mb: float = ...,
+            threads: Threads = ...) -> Field: ...
+    def write_field(
+            self, path: Path, around: Optional[Surface] = None,
+            options: Optional[FieldOptions] = None, *, inverse: bool = ...,
+            spacing: Union[float, Literal["auto"]] = ..., frame: Literal["lps", "ras"] = ...,
+            unit: Literal["mm", "cm", "m"] = ..., margin: float = ..., bounds: str = ...,
+            like: str = ..., no_inverse: Literal["nan", "zero", "nearest"] = ...,
+            max_mb: float = ..., threads: Threads = ...) -> Field: ...
+    def write_rigid(
+            self, path: Path, *, frame: Literal["lps", "ras"] = "lps",
+            unit: Literal["mm", "cm", "m"] = "mm") -> None: ...
     @property
     def graph(self) -> Graph: ...
     @property
@@ -224,6 +264,47 @@ class Warp:
     @property
     def finish_displacements(self) -> Optional[NDArray[np.float64]]: ...
     def __len__(self) -> int: ...
+
+
+class FieldOptions:
+    words: ClassVar[dict[str, str]]
+    names: ClassVar[tuple[str, ...]]
+    inverse: bool
+    spacing: float
+    frame: Literal["lps", "ras"]
+    unit: Literal["mm", "cm", "m"]
+    margin: float
+    bounds: str
+    like: str
+    no_inverse: Literal["nan", "zero", "nearest"]
+    max_mb: float
+    threads: int
+    def __init__(
+            self, inverse: bool = ..., spacing: Union[float, Literal["auto"]] = ...,
+            frame: Literal["lps", "ras"] = ..., unit: Literal["mm", "cm", "m"] = ...,
+            margin: float = ..., bounds: str = ..., like: str = ...,
+            no_inverse: Literal["nan", "zero", "nearest"] = ..., max_mb: float = ...,
+            threads: Threads = ...) -> None: ...
+    def copy(self) -> FieldOptions: ...
+    def __copy__(self) -> FieldOptions: ...
+
+
+class Field:
+    @property
+    def vectors(self) -> NDArray[np.float32]: ...
+    @property
+    def origin(self) -> NDArray[np.float64]: ...
+    @property
+    def spacing(self) -> NDArray[np.float64]: ...
+    @property
+    def direction(self) -> NDArray[np.float64]: ...
+    @property
+    def inverse(self) -> Optional[dict[str, Any]]: ...
+    @property
+    def error(self) -> dict[str, Any]: ...
+    @property
+    def description(self) -> str: ...
+    def apply(self, points: ArrayLike) -> NDArray[np.float64]: ...
 
 
 class FitOptions:
@@ -365,6 +446,8 @@ class FitResult:
     def to_trimesh(self) -> Any: ...
     def to_open3d(self) -> Any: ...
     def _repr_html_(self) -> str: ...
+    def _repr_png_(self) -> Optional[bytes]: ...
+    def picture(self, *, width: int = 900, theme: Literal["light", "dark"] = "light") -> bytes: ...
     @property
     def colors(self) -> Optional[NDArray[np.uint8]]: ...
     @property
@@ -403,6 +486,8 @@ class FitResult:
     def final_energy(self) -> float: ...
     @property
     def terms(self) -> list[dict[str, Any]]: ...
+    @property
+    def landmark_errors(self) -> list[dict[str, Any]]: ...
     @property
     def outer_iterations(self) -> int: ...
     @property
@@ -463,9 +548,12 @@ class SurfaceFitter:
             unfold: bool = ..., covariance: bool = ..., threads: Threads = ...,
             time_limit_s: Union[float, Literal["none"]] = ...) -> None: ...
     def fit(
-            self, target: Optional[Surface] = None, *, landmarks: Optional[Landmarks] = None,
+            self, target: Optional[Surface] = None, *, landmarks: Optional[PointPositions] = None,
             fixed: Optional[ArrayLike] = None,
-            should_stop: Optional[Callable[[], bool]] = None) -> FitResult: ...
+            should_stop: Optional[Callable[[], bool]] = None,
+            source_landmarks: Optional[AnyLandmarks] = None,
+            target_landmarks: Optional[AnyLandmarks] = None,
+            landmark_use: Literal["fit", "measure"] = "fit", mesh_space: MeshSpace = "auto") -> FitResult: ...
     def __len__(self) -> int: ...
 
 
@@ -793,12 +881,17 @@ def save(
         path: Path, surface: Surface, *, like: Optional[Union[Cloud, Path]] = None,
         double_precision: bool = False) -> None: ...
 def fit(
-        source: Surface, target: Optional[Surface] = None, *, landmarks: Optional[Landmarks] = None,
-        fixed: Optional[ArrayLike] = None, energies: Optional[Energies] = None,
-        plugin: Optional[Plugins] = None, options: Optional[FitOptions] = None,
+        source: Surface, target: Optional[Surface] = None, *,
+        landmarks: Optional[PointPositions] = None, fixed: Optional[ArrayLike] = None,
+        energies: Optional[Energies] = None, plugin: Optional[Plugins] = None,
+        options: Optional[FitOptions] = None,
         progress: Optional[Callable[[FitProgress], object]] = None,
-        should_stop: Optional[Callable[[], bool]] = None, mode: Mode = ..., rings: int = ...,
-        boundary: Boundary = ..., linear_solver: LinearSolver = ..., relinearize_above: float = ...,
+        should_stop: Optional[Callable[[], bool]] = None,
+        source_landmarks: Optional[AnyLandmarks] = None,
+        target_landmarks: Optional[AnyLandmarks] = None,
+        landmark_use: Literal["fit", "measure"] = "fit", mesh_space: MeshSpace = "auto",
+        mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
+        linear_solver: LinearSolver = ..., relinearize_above: float = ...,
         marginal_reach: Union[int, Literal["all"]] = ..., graph_sampling: Sampling = ...,
         graph_distance: Distance = ..., node_spacing: Union[float, Literal["automatic"]] = ...,
         target_nodes: Union[int, Literal["automatic"]] = ..., graph_auto_spacing: float = ...,

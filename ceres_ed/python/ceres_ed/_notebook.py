@@ -1,46 +1,18 @@
-"""How results look in a notebook: a short table and, where matplotlib is installed, a small picture."""
+"""How results look in a notebook: a short table and the picture of a report."""
 import base64
 import html
-import importlib
-import io
 from typing import Any, Iterable, Optional
-
-import numpy as np
 
 from . import _core
 
-# Pixels of the picture, and the most points in it.
-WIDTH, HEIGHT, POINTS = 320, 240, 4000
+# Pixels of the picture.
+WIDTH = 900
 
 
 def _table(title: str, rows: "Iterable[tuple[str, str]]") -> str:
     cells = "".join(f"<tr><th style='text-align:left'>{html.escape(name)}</th>"
                     f"<td style='text-align:left'>{html.escape(text)}</td></tr>" for name, text in rows)
     return f"<table><caption>{html.escape(title)}</caption>{cells}</table>"
-
-
-def _picture(points: Any, values: Any) -> Optional[str]:
-    """Returns an <img> of the points, seen along the direction in which they spread least."""
-    try:
-        canvas = importlib.import_module("matplotlib.backends.backend_agg").FigureCanvasAgg
-        figures = importlib.import_module("matplotlib.figure")
-    except ImportError:
-        return None
-    step = -(-len(points) // POINTS)
-    points, values = points[::step], values[::step]
-    centred = points - points.mean(axis=0)
-    axes = np.linalg.eigh(centred.T @ centred)[1]
-    dots = 100  # per inch
-    figure = figures.Figure(figsize=(WIDTH / dots, HEIGHT / dots), dpi=dots)
-    canvas(figure)
-    plot = figure.add_axes((0.0, 0.0, 1.0, 1.0))
-    plot.scatter(centred @ axes[:, 2], centred @ axes[:, 1], c=values, s=2, linewidths=0)
-    plot.set_aspect("equal")
-    plot.set_axis_off()
-    file = io.BytesIO()
-    figure.savefig(file, format="png")
-    return (f"<img alt='the points, coloured by their displacement' width='{WIDTH}' "
-            f"src='data:image/png;base64,{base64.b64encode(file.getvalue()).decode()}'/>")
 
 
 def _fit_rows(result: "_core.FitResult") -> "Iterable[tuple[str, str]]":
@@ -59,12 +31,19 @@ def _fit_rows(result: "_core.FitResult") -> "Iterable[tuple[str, str]]":
         yield "warning", warning
 
 
+def fit_png(self: "_core.FitResult") -> Optional[bytes]:
+    """Returns the picture of a fit; None if the library was built without pictures."""
+    return self.picture(width=WIDTH) or None
+
+
 def fit_html(self: "_core.FitResult") -> str:
-    """Returns the table of a fit, and a picture of its points, coloured by their displacement."""
-    rigid = self.rigid
-    start = self.source_points @ rigid[:3, :3].T + rigid[:3, 3]
-    picture = _picture(np.asarray(self.points), np.linalg.norm(self.points - start, axis=1))
-    return _table("ceres_ed.FitResult", _fit_rows(self)) + (picture or "")
+    """Returns the table of a fit, and its picture."""
+    table = _table("ceres_ed.FitResult", _fit_rows(self))
+    picture = fit_png(self)
+    if picture is None:
+        return table
+    return (f"{table}<img alt='source, target and result of the fit' width='{WIDTH}' "
+            f"src='data:image/png;base64,{base64.b64encode(picture).decode()}'/>")
 
 
 def evaluation_html(self: "_core.Evaluation") -> str:
@@ -79,4 +58,5 @@ def evaluation_html(self: "_core.Evaluation") -> str:
 _result: Any = _core.FitResult
 _evaluation: Any = _core.Evaluation
 _result._repr_html_ = fit_html
+_result._repr_png_ = fit_png
 _evaluation._repr_html_ = evaluation_html

@@ -33,7 +33,7 @@ def _own_parameters(function: Any) -> "list[inspect.Parameter]":
     return parameters
 
 
-def with_options(name: str, function: F, options: Any) -> F:
+def with_options(name: str, function: F, options: Any, is_method: bool = False) -> F:
     """Returns a function of Python, ceres_ed.`name`, that calls `function`; with all options as keywords.
 
     Unlike a function of a module in C++, it can be pickled: a process pool may call it.
@@ -44,7 +44,9 @@ def with_options(name: str, function: F, options: Any) -> F:
 
     call.__module__, call.__qualname__ = "ceres_ed", name
     signed: Any = call
-    signed.__signature__ = inspect.Signature(_own_parameters(function) + _keywords(options))
+    first = [inspect.Parameter("self", inspect.Parameter.POSITIONAL_OR_KEYWORD)] if is_method else []
+    signed.__signature__ = inspect.Signature(
+        first + _own_parameters(function) + _keywords(options))
     return cast(F, signed)
 
 
@@ -56,7 +58,11 @@ fit = with_options("fit", _core.fit, _core.FitOptions)
 open_sequence = with_options("open_sequence", _core.open_sequence, _core.SequenceOptions)
 _graph: Any = _core.Graph
 _graph.build = staticmethod(with_options("Graph.build", _graph.build, _core.GraphOptions))
-for _options in (_core.FitOptions, _core.GraphOptions, _core.SequenceOptions, _core.TrackerOptions):
+_warp: Any = _core.Warp
+for _name in ("field", "write_field"):
+    setattr(_warp, _name, with_options(f"Warp.{_name}", getattr(_warp, _name), _core.FieldOptions,
+                                       is_method=True))
+for _options in (_core.FieldOptions, _core.FitOptions, _core.GraphOptions, _core.SequenceOptions, _core.TrackerOptions):
     _sign(_options, _keywords(_options))
 for _kind, _options in ((_core.SurfaceFitter, _core.FitOptions),
                         (_core.Tracker, _core.TrackerOptions)):
