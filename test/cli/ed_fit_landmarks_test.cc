@@ -4,6 +4,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -172,6 +173,54 @@ TEST_F(EdFitLandmarks, ApplyMovesMarkupsAsTheFitMeasuresThemAndKeepsTheRest) {
                            {dir_ / "w.json", dir_ / "source.mrk.json", "-o", dir_ / "moved.ply"})
                 .exit_code,
             1);
+}
+
+// A ring that was cut along a column, whose second copy does not quite meet the first.
+RingOptions TornRing() {
+  RingOptions torn;
+  std::vector<std::string> faces;
+  for (int row = 0; row < torn.rows; ++row) {
+    std::ostringstream copy;
+    copy.precision(17);
+    copy << (RingPoint(0.5, double(row) / torn.rows) + Eigen::Vector3d(1e-9, -1e-9, 1e-9))
+                .transpose();
+    torn.more_vertices.push_back(copy.str());
+    const int left = torn.size() + row;
+    const int right = row * torn.columns + torn.columns / 2 + 1;
+    const int above = torn.size() + (row + 1) % torn.rows;
+    const int diagonal = (row + 1) % torn.rows * torn.columns + torn.columns / 2 + 1;
+    faces.push_back("3 " + std::to_string(left) + ' ' + std::to_string(right) + ' ' +
+                    std::to_string(above));
+    faces.push_back("3 " + std::to_string(right) + ' ' + std::to_string(diagonal) + ' ' +
+                    std::to_string(above));
+  }
+  torn.more_faces = faces;
+  torn.is_kept = [middle = torn.columns / 2](int column) { return column != middle; };
+  return torn;
+}
+
+TEST_F(EdFitLandmarks, ApplyMovesThemAsAFitThatHasMendedItsSourceMeasuresThem) {
+  WriteBytes(dir_ / "source.ply", RingPly(TornRing()));
+  const ProgramResult fit = FitNamed({"--repair", "--warp=" + (dir_ / "w.json")});
+  ASSERT_EQ(fit.exit_code, 0) << fit.err;
+  ASSERT_THAT(fit.err, HasSubstr("moved to the place of the vertex")) << "nothing to mend";
+  const ProgramResult result = RunProgramFile(AppPath("ed_apply"),
+                                              {dir_ / "w.json",
+                                               dir_ / "source.mrk.json",
+                                               "--source=" + (dir_ / "source.ply"),
+                                               "-o",
+                                               dir_ / "moved.mrk.json"});
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  const auto moved = ReadLandmarkFile(dir_ / "moved.mrk.json");
+  ASSERT_TRUE(moved.ok()) << moved.status().message();
+  const nlohmann::json pairs = Report().at("landmarks").at("pairs");
+  ASSERT_EQ(pairs.size(), 8U);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Vector3d at =
+        BetweenSpaces(moved->points[i].position, AnatomicalSpace::kRas, AnatomicalSpace::kLps);
+    EXPECT_NEAR(
+        (at - BentPoint(source_[i].position)).norm(), pairs[i].at("after").get<double>(), 1e-9);
+  }
 }
 
 TEST_F(EdFitLandmarks, FilesThatDoNotFitAreOneSentence) {
