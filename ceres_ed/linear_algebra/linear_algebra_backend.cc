@@ -9,6 +9,7 @@
 
 #include <ceres/version.h>
 #include <dlfcn.h>
+#include <link.h>
 
 #ifdef CERES_ED_HAVE_OPENBLAS
 extern "C" char* openblas_get_config();
@@ -30,11 +31,35 @@ Function* FindLoaded(const char* name) {
 [[gnu::used]] char* (*const kKeepOpenBlasLinked)() = &openblas_get_config;
 #endif
 
+// An address, and the path of the shared object that contains it.
+struct ObjectSearch {
+  ElfW(Addr) address = 0;
+  std::string file;
+};
+
+int FindObject(dl_phdr_info* object, std::size_t /*size*/, void* data) {
+  auto* search = static_cast<ObjectSearch*>(data);
+  for (int i = 0; i < object->dlpi_phnum; ++i) {
+    const ElfW(Phdr)& segment = object->dlpi_phdr[i];
+    const ElfW(Addr) begin = object->dlpi_addr + segment.p_vaddr;
+    if (segment.p_type != PT_LOAD || search->address < begin) continue;
+    if (search->address - begin >= segment.p_memsz) continue;
+    search->file = object->dlpi_name;
+    return 1;
+  }
+  return 0;
+}
+
 // Returns the path of the shared object that contains `address`, or an empty string if there is
-// none.
+// none. dladdr() would also look for the symbol, among all of a large library, which takes longer
+// than the rest of --version; it knows the name of the program itself.
 std::string FileOf(const void* address) {
+  if (address == nullptr) return "";
+  ObjectSearch search;
+  search.address = reinterpret_cast<ElfW(Addr)>(address);
+  if (dl_iterate_phdr(&FindObject, &search) != 0 && !search.file.empty()) return search.file;
   Dl_info info;
-  if (address == nullptr || dladdr(address, &info) == 0 || info.dli_fname == nullptr) return "";
+  if (dladdr(address, &info) == 0 || info.dli_fname == nullptr) return "";
   return info.dli_fname;
 }
 

@@ -156,64 +156,65 @@ class OptionRows {
 
   const std::vector<OneRow>& rows() const { return rows_; }
 
-  // These change all of the rows; a table has most of them for one row.
-  OptionRows In(const OptionRange& range) const {
+  // These change all of the rows; a table has most of them for one row. They work on temporaries:
+  // every program makes its tables when it starts, so nothing is copied.
+  OptionRows&& In(const OptionRange& range) && {
     return With([&range](Option* option) { option->range = range; });
   }
-  OptionRows Unit(const char* unit) const {
+  OptionRows&& Unit(const char* unit) && {
     return With([unit](Option* option) { option->unit = unit; });
   }
-  OptionRows Group(OptionGroup group) const {
+  OptionRows&& Group(OptionGroup group) && {
     return With([group](Option* option) { option->group = group; });
   }
-  OptionRows File() const { return Group(OptionGroup::kFiles); }
-  OptionRows Main() const { return Group(OptionGroup::kMain); }
-  OptionRows Letter(char letter) const {
+  OptionRows&& File() && { return std::move(*this).Group(OptionGroup::kFiles); }
+  OptionRows&& Main() && { return std::move(*this).Group(OptionGroup::kMain); }
+  OptionRows&& Letter(char letter) && {
     return With([letter](Option* option) { option->letter = letter; });
   }
-  OptionRows OnResume(ResumeRule rule) const {
+  OptionRows&& OnResume(ResumeRule rule) && {
     return With([rule](Option* option) { option->resume = rule; });
   }
   // `word` stands for `value`, on the command line and in the member.
-  OptionRows Special(double value, const char* word) const { return Special(value, value, word); }
+  OptionRows&& Special(double value, const char* word) && {
+    return std::move(*this).Special(value, value, word);
+  }
   // `word` and `on_flag` stand for `value` on the command line.
-  OptionRows Special(double on_flag, double value, const char* word) const {
+  OptionRows&& Special(double on_flag, double value, const char* word) && {
     return With([=](Option* option) { option->specials.push_back({on_flag, value, word}); });
   }
   // A bool whose flag takes words.
-  OptionRows Words(const char* for_true, const char* for_false) const {
+  OptionRows&& Words(const char* for_true, const char* for_false) && {
     return With([=](Option* option) {
       option->word_for_true = for_true;
       option->word_for_false = for_false;
     });
   }
   // A text whose flag may stand without a value, and then means `text`.
-  OptionRows Alone(const char* text) const {
+  OptionRows&& Alone(const char* text) && {
     return With([=](Option* option) { option->text_alone = text; });
   }
   // For rows of a nested struct: the member of that name is set by the library.
-  OptionRows Internal(const std::string& name) const {
+  OptionRows&& Internal(const std::string& name) && {
     return Change(name, [](Option* option) { option->group = OptionGroup::kInternal; });
   }
 
  private:
   template <typename F>
-  OptionRows With(F change) const {
-    OptionRows changed = *this;
-    for (OneRow& row : changed.rows_) change(&row.option);
-    return changed;
+  OptionRows&& With(F change) {
+    for (OneRow& row : rows_) change(&row.option);
+    return std::move(*this);
   }
   template <typename F>
-  OptionRows Change(const std::string& name, F change) const {
-    OptionRows changed = *this;
+  OptionRows&& Change(const std::string& name, F change) {
     int found = 0;
-    for (OneRow& row : changed.rows_) {
+    for (OneRow& row : rows_) {
       if (row.option.name != name) continue;
       change(&row.option);
       ++found;
     }
     CHECK_EQ(found, 1) << "rows named " << name;
-    return changed;
+    return std::move(*this);
   }
 
   std::vector<OneRow> rows_;
@@ -246,7 +247,9 @@ OptionRows<Options> Row(T Options::*member, const char* name, const char* doc) {
   row.option.name = name;
   row.option.doc = doc;
   row.field = [member](Options* options) { return internal::FieldOf(&(options->*member)); };
-  return OptionRows<Options>({row});
+  std::vector<typename OptionRows<Options>::OneRow> rows;
+  rows.push_back(std::move(row));
+  return OptionRows<Options>(std::move(rows));
 }
 
 // Returns the rows of a member that is an Options struct itself, with `prefix` before all names but
@@ -284,6 +287,9 @@ class OptionTable {
   // One entry for each member of the struct. Rows that users see have names of their own.
   OptionTable(std::initializer_list<OptionRows<Options>> members)
       : num_members_(static_cast<int>(members.size())) {
+    std::size_t num_rows = 0;
+    for (const OptionRows<Options>& member : members) num_rows += member.rows().size();
+    rows_.reserve(num_rows);
     for (const OptionRows<Options>& member : members) {
       for (const OneRow& row : member.rows()) {
         const bool is_hidden = row.option.group == OptionGroup::kInternal;
