@@ -39,8 +39,12 @@ else
   cp "$stage"/*.deb "$root/packages/"
   cp -r "$pair" "$root/data/"
   cp scripts/docker/install_packages.sh "$root/"
-  in_root /install_packages.sh /packages >"$root/install.log" 2>&1 || { tail -30 "$root/install.log" >&2; exit 1; }
+  # The modules that the Dockerfile adds where nobody names others.
+  read -ra modules < <(sed -n 's/^ARG MODULES="\(.*\)"$/\1/p' scripts/docker/Dockerfile)
+  in_root /install_packages.sh /packages "${modules[@]}" >"$root/install.log" 2>&1 || { tail -30 "$root/install.log" >&2; exit 1; }
+  grep -E '^After this operation' "$root/install.log"
   in_root "${fit[@]}"
+  in_root ed_fit "/$pair/source.ply" "/$pair/target.ply" --output=/fitted.glb
   in_root python3 -c "$python"
   echo "the stages of the Dockerfile work on bare Debians"
 fi
