@@ -3,6 +3,8 @@
 #include <ceres_ed/io/mesh/mesh_view.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,7 @@ namespace ceres_ed {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 // The endings that this build reads and writes, beside .ply.
 std::vector<std::string> Endings() {
@@ -105,6 +108,43 @@ TEST_F(Formats, FormatsMix) {
   const ProgramResult result =
       Fit("source.stl", "target" + endings.back(), "out" + endings[endings.size() / 2]);
   ASSERT_EQ(result.exit_code, 0) << result.err;
+}
+
+#ifdef CERES_ED_HAVE_VTK_MODULE
+TEST_F(Formats, AFitFromStlToVtkIsAVtp) {
+  const ProgramResult result = Fit("source.stl", "target.vtk", "c.vtp");
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, BackendComplaints());
+  EXPECT_THAT(ReadBytes(dir_ / "c.vtp"), HasSubstr("<VTKFile type=\"PolyData\""));
+}
+#endif
+
+TEST_F(Formats, OnlyAFileThatNeedsAModuleLoadsIt) {
+  // Returns what the dynamic loader says of the files that a fit loads.
+  const auto loaded = [this](const std::string& source, const std::string& output) {
+    setenv("LD_DEBUG", "files", 1);
+    setenv("LD_DEBUG_OUTPUT", (dir_ / "loaded").c_str(), 1);
+    const ProgramResult result = Fit(source, "target.ply", output);
+    unsetenv("LD_DEBUG");
+    unsetenv("LD_DEBUG_OUTPUT");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    std::string text;
+    for (const auto& entry : std::filesystem::directory_iterator(dir_ / "")) {
+      if (entry.path().filename().string().rfind("loaded.", 0) != 0) continue;
+      text += ReadBytes(entry.path());
+      std::filesystem::remove(entry.path());
+    }
+    return text;
+  };
+  for (const std::string name : {"source.ply", "source.stl", "source.obj", "source.off"}) {
+    const std::string files = loaded(name, "out.ply");
+    EXPECT_THAT(files, HasSubstr("libgflags")) << "the loader says nothing";
+    EXPECT_THAT(files, Not(HasSubstr("libceres_ed_"))) << name;
+    EXPECT_THAT(files, Not(HasSubstr("libvtk"))) << name;
+  }
+#ifdef CERES_ED_HAVE_VTK_MODULE
+  EXPECT_THAT(loaded("source.ply", "out.vtp"), HasSubstr("libceres_ed_vtk"));
+#endif
 }
 
 TEST_F(Formats, ApplyEvalAndCheckTakeThem) {
