@@ -68,17 +68,24 @@ cat "$root/root/error"
 install_packages 'ceres-ed-pcl_*.deb'
 in_root ed_apply /root/warp.json /root/points.pcd --output=/root/moved.pcd
 
-say "fields in .h5 files"
-if in_root ed_apply /root/warp.json --field=/root/field.h5 2>"$root/root/error"; then
-  echo "test_packages.sh: an .h5 file was written without ceres-ed-hdf5" >&2
-  exit 1
-fi
-cat "$root/root/error"
-install_packages 'ceres-ed-hdf5_*.deb'
-in_root ed_apply /root/warp.json --field=/root/field.h5
+# Each module writes a file that nothing else can, and without it one sentence names its package.
+while read -r module file <&3; do
+  say "files such as $file"
+  output=(--output="/root/$file" "$pair/source.ply")
+  if [[ $module == hdf5 ]]; then output=(--field="/root/$file"); fi
+  if in_root ed_apply /root/warp.json "${output[@]}" 2>"$root/root/error"; then
+    echo "test_packages.sh: $file was written without ceres-ed-$module" >&2
+    exit 1
+  fi
+  grep "ceres-ed-$module" "$root/root/error"
+  install_packages "ceres-ed-${module}_*.deb"
+  in_root ed_apply /root/warp.json "${output[@]}"
+done 3<<<'hdf5 field.h5
+gltf moved.glb
+vtk moved.vtp'
 
 say "and gone again"
-apt_get remove --purge 'libceres-ed*' ceres-ed-tools ceres-ed-pcl ceres-ed-hdf5 python3-ceres-ed >/dev/null
+apt_get remove --purge 'libceres-ed*' 'ceres-ed-*' python3-ceres-ed >/dev/null
 left=$(in_root find /usr -name '*ceres_ed*' -o -name '*ceres-ed*' -o -name 'ed_fit')
 if [[ -n $left ]]; then
   echo "test_packages.sh: left behind: $left" >&2
