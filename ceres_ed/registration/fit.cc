@@ -2,6 +2,7 @@
 
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/geometry/normals.h>
+#include <ceres_ed/geometry/spatial_order.h>
 #include <ceres_ed/geometry/surface.h>
 #include <ceres_ed/graph/binding.h>
 #include <ceres_ed/graph/volume.h>
@@ -15,6 +16,7 @@
 #include <ceres_ed/registration/normal_spread.h>
 #include <ceres_ed/registration/placement.h>
 #include <ceres_ed/registration/prepared_surface.h>
+#include <ceres_ed/registration/sorted_input.h>
 #include <ceres_ed/registration/uncertainty/fit_uncertainty.h>
 #include <ceres_ed/registration/unit_frame.h>
 #include <ceres_ed/util/timer.h>
@@ -271,12 +273,35 @@ StatusOr<FitResult> Fitter::Run() {
   return std::move(result_);
 }
 
+// Fits large clouds in a spatial order. `prepared` is the surface of the source in that order, or
+// null.
+StatusOr<FitResult> FitInOrder(const FitInput& input,
+                               const FitOptions& options,
+                               const EnergyRegistry& registry,
+                               const PreparedSurface* prepared) {
+  if (!IsSorted(input.source, options) && !IsSorted(input.target, options)) {
+    return Fitter(input, options, registry, prepared).Run();
+  }
+  // Here errors name points by the indices that the caller knows.
+  if (Status status = ValidateFit(input, options); !status.ok()) return status;
+  const SortedInput sorted(input, options);
+  StatusOr<FitResult> result = Fitter(sorted.input(), options, registry, prepared).Run();
+  if (result.ok()) sorted.PutBack(&*result);
+  return result;
+}
+
+// Returns the source as a fit takes it.
+PointCloud InOrder(const PointCloud& source, const FitOptions& options) {
+  if (!IsSorted(source, options)) return source;
+  return Reordered(source, SpatialOrder(source.points));
+}
+
 }  // namespace
 
 StatusOr<FitResult> Fit(const FitInput& input,
                         const FitOptions& options,
                         const EnergyRegistry& registry) {
-  return Fitter(input, options, registry, /*prepared=*/nullptr).Run();
+  return FitInOrder(input, options, registry, /*prepared=*/nullptr);
 }
 
 StatusOr<FitResult> Fit(const PointCloud& source, const PointCloud& target) {
@@ -293,7 +318,7 @@ SurfaceFitter::SurfaceFitter(PointCloud source,
       options_(options),
       registry_(registry),
       prepared_(std::make_unique<const PreparedSurface>(
-          PrepareSurface(source_, "the source", options.num_threads))) {}
+          PrepareSurface(InOrder(source_, options), "the source", options.num_threads))) {}
 
 SurfaceFitter::~SurfaceFitter() = default;
 
@@ -310,7 +335,7 @@ StatusOr<FitResult> SurfaceFitter::Fit(const PointCloud& target,
                                        const std::vector<Landmark>& landmarks,
                                        const std::vector<int>& fixed_points) const {
   const FitInput input = {source_, target, landmarks, fixed_points};
-  return Fitter(input, options_, registry_, prepared_.get()).Run();
+  return FitInOrder(input, options_, registry_, prepared_.get());
 }
 
 }  // namespace ceres_ed

@@ -53,7 +53,8 @@ EnergyInfo AnchorInfo() {
           "gain t_j",
           "length",
           EnergyKind::kPrior,
-          {{"gain", ParameterType::kReal, "-", 0.0, 10.0, 2.0, "factor of the residual"}}};
+          {{"gain", ParameterType::kReal, "-", 0.0, 10.0, 2.0, "factor of the residual"}},
+          ""};
 }
 
 void AddAnchors(const EnergyContext& context, ResidualSink* sink) {
