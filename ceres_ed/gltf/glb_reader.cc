@@ -1,6 +1,7 @@
 #include <ceres_ed/gltf/glb_attributes.h>
 #include <ceres_ed/gltf/glb_file.h>
 #include <ceres_ed/gltf/tiny_gltf.h>
+#include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/mesh/mesh_view.h>
 #include <ceres_ed/io/text.h>
 
@@ -8,9 +9,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -318,6 +321,15 @@ Status ReadGlbFile(const std::string& path, PlyDocument* document) {
   if (!bytes.ok()) return bytes.status();
   if (bytes->size() > std::numeric_limits<std::uint32_t>::max()) {
     return Status::Error(path + ": more than 4294967295 bytes, which no GLB has");
+  }
+  // The JSON of a GLB is its first chunk: 12 bytes of the file's head, 8 of the chunk's, the text.
+  // Text in the other chunk is data, so that only a length that is wrong makes this look beyond.
+  constexpr std::size_t kTextBegin = 20;
+  if (bytes->size() > kTextBegin) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes->data() + 12, sizeof(length));
+    Status status = CheckJsonDepth(path, std::string_view(*bytes).substr(kTextBegin, length));
+    if (!status.ok()) return status;
   }
   tinygltf::Model model;
   std::string error;

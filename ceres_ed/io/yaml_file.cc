@@ -3,6 +3,7 @@
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/util/shown_text.h>
 
+#include <cstddef>
 #include <exception>
 #include <optional>
 #include <utility>
@@ -14,9 +15,6 @@ namespace {
 
 using nlohmann::json;
 
-// Deeper files are refused: recursion must end before the stack does.
-constexpr int kDeepest = 64;
-
 json ScalarValue(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   // A text in quotes is no number.
@@ -27,36 +25,58 @@ json ScalarValue(const YAML::Node& node) {
   return text;
 }
 
-StatusOr<json> ToJson(const std::string& path, const YAML::Node& node, int depth) {
-  if (depth > kDeepest) {
-    return Status::Error(path + ": values are nested more than " + std::to_string(kDeepest) +
-                         " deep, expected a calibration or a list");
+// Makes JSON of the nodes of a file. An alias stands for a whole part of the file: a few lines of
+// aliases of aliases stand for more values than any memory holds, so that they are counted.
+class NodeReader {
+ public:
+  NodeReader(const std::string& path, std::size_t most_values)
+      : path_(path), values_left_(most_values) {}
+
+  StatusOr<json> Read(const YAML::Node& node, int depth) {
+    if (depth > kDeepestValue) {
+      return Status::Error(path_ + ": values are nested more than " +
+                           std::to_string(kDeepestValue) +
+                           " deep, expected a calibration or a list");
+    }
+    if (values_left_ == 0) {
+      return Status::Error(path_ +
+                           ": its aliases stand for more values than it has bytes, expected values "
+                           "that are written out");
+    }
+    --values_left_;
+    if (node.IsScalar()) return ScalarValue(node);
+    if (node.IsSequence()) return ReadSequence(node, depth);
+    return node.IsMap() ? ReadMap(node, depth) : json();
   }
-  if (node.IsScalar()) return ScalarValue(node);
-  if (node.IsSequence()) {
+
+ private:
+  StatusOr<json> ReadSequence(const YAML::Node& node, int depth) {
     json list = json::array();
     for (const YAML::Node& item : node) {
-      StatusOr<json> value = ToJson(path, item, depth + 1);
+      StatusOr<json> value = Read(item, depth + 1);
       if (!value.ok()) return value.status();
       list.push_back(*std::move(value));
     }
     return list;
   }
-  if (node.IsMap()) {
+
+  StatusOr<json> ReadMap(const YAML::Node& node, int depth) {
     json map = json::object();
     for (const auto& entry : node) {
       if (!entry.first.IsScalar()) {
-        return Status::Error(path + ": line " + std::to_string(entry.first.Mark().line + 1) +
+        return Status::Error(path_ + ": line " + std::to_string(entry.first.Mark().line + 1) +
                              ": a key is a list or a map, expected a word");
       }
-      StatusOr<json> value = ToJson(path, entry.second, depth + 1);
+      StatusOr<json> value = Read(entry.second, depth + 1);
       if (!value.ok()) return value.status();
       map[entry.first.Scalar()] = *std::move(value);
     }
     return map;
   }
-  return json();
-}
+
+  const std::string& path_;
+  std::size_t values_left_;
+};
 
 }  // namespace
 
@@ -66,7 +86,8 @@ StatusOr<json> ReadYamlFile(const std::string& path) {
   // OpenCV writes "%YAML:1.0", which is no directive of YAML.
   if (text->rfind("%YAML", 0) == 0) (*text)[0] = '#';
   try {
-    return ToJson(path, YAML::Load(*text), 0);
+    // Each value has at least a byte, but for the whole of an empty file.
+    return NodeReader(path, text->size() + 1).Read(YAML::Load(*text), 0);
   } catch (const YAML::Exception& error) {
     return Status::Error(path + ": line " + std::to_string(error.mark.line + 1) +
                          ": no YAML: " + ShownLine(error.msg));

@@ -92,7 +92,7 @@ TEST_F(EdReportTest, RefusesWhatIsNoReport) {
   WriteBytes(dir_ / "text.json", "{\"program\": ");
   WriteBytes(dir_ / "list.json", "[1, 2]");
   WriteBytes(dir_ / "slam.json", "{\"program\": \"other\"}");
-  for (const auto& [name, sentence] : {std::pair("text.json", "is no JSON"),
+  for (const auto& [name, sentence] : {std::pair("text.json", "no JSON"),
                                        std::pair("list.json", "has no \"program\""),
                                        std::pair("slam.json", "is of a run of 'other'"),
                                        std::pair("none.json", "cannot read")}) {
@@ -103,7 +103,7 @@ TEST_F(EdReportTest, RefusesWhatIsNoReport) {
   }
 }
 
-TEST_F(EdReportTest, ADeeplyNestedReportIsNoFault) {
+TEST_F(EdReportTest, ADeeplyNestedReportIsRefused) {
   constexpr int kDepth = 200000;
   const std::string deep = std::string(kDepth, '[') + std::string(kDepth, ']');
   WriteBytes(
@@ -111,7 +111,8 @@ TEST_F(EdReportTest, ADeeplyNestedReportIsNoFault) {
       "{\"program\": \"ed_fit\", \"flags\": {\"a\": " + deep + "}, \"warnings\": [" + deep + "]}");
   const ProgramResult result = RunReport({dir_ / "deep.json", html_});
   EXPECT_EQ(result.signal, 0);
-  EXPECT_EQ(result.exit_code, 0) << result.err.substr(0, 300);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("deep.json: byte "));
 }
 
 TEST_F(EdReportTest, FilesOfOtherPointsAreNotShown) {

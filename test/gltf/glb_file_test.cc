@@ -137,5 +137,19 @@ TEST(GlbFile, CutAndDamagedFilesGiveAnErrorThatNamesThemOrADocument) {
   }
 }
 
+TEST(GlbFile, RefusesExtrasThatLieAbsurdlyDeep) {
+  constexpr int kDepth = 200000;
+  const TemporaryDirectory directory;
+  std::string text = "{\"asset\":{\"version\":\"2.0\",\"extras\":";
+  text += std::string(kDepth, '[') + std::string(kDepth, ']') + "}}";
+  while (text.size() % 4 != 0) text += ' ';
+  std::string file = "glTF";
+  AppendNumber(2, &file);
+  AppendNumber(static_cast<std::uint32_t>(20 + text.size()), &file);
+  AppendNumber(static_cast<std::uint32_t>(text.size()), &file);
+  WriteBytes(directory / "deep.glb", file + "JSON" + text);
+  EXPECT_THAT(ReadMesh(directory / "deep.glb").status().message(), HasSubstr("64 deep"));
+}
+
 }  // namespace
 }  // namespace ceres_ed

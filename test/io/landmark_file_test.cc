@@ -185,7 +185,7 @@ TEST_F(LandmarkFiles, SayWhatIsWrongAndWhere) {
   EXPECT_THAT(ErrorOf("a.json", "{\"markups\":[{\"coordinateSystem\":\"IJK\"}]}"),
               HasSubstr("/markups/0/coordinateSystem is 'IJK', expected LPS or RAS"));
   EXPECT_THAT(ErrorOf("a.json", "{\"program\": \"ed_fit\"}"), HasSubstr("it is a report"));
-  EXPECT_THAT(ErrorOf("a.json", "{"), HasSubstr("no JSON: "));
+  EXPECT_THAT(ErrorOf("a.json", "{"), HasSubstr("no JSON, or cut off: "));
 }
 
 TEST_F(LandmarkFiles, TurningBetweenSpacesChangesTheSignsOfXAndY) {

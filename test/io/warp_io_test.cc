@@ -250,7 +250,7 @@ TEST(WarpFile, TextThatIsNoJsonIsAnError) {
   // The loop ends before the last brace and the line end, so each file is cut off.
   for (std::size_t size = 0; size + 2 < bytes.size(); size += 7) {
     WriteBytes(path, bytes.substr(0, size));
-    EXPECT_THAT(ReadWarp(path).status().message(), HasSubstr("w.json: not JSON, or truncated"));
+    EXPECT_THAT(ReadWarp(path).status().message(), HasSubstr("w.json: no JSON, or cut off"));
   }
   WriteBytes(path, "{\"format\": 1e999}");
   EXPECT_THAT(ReadWarp(path).status().message(), HasSubstr("beyond the range of double"));

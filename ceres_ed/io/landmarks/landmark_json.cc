@@ -1,8 +1,8 @@
+#include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/landmarks/landmark_parsers.h>
 #include <ceres_ed/io/text.h>
 
 #include <cmath>
-#include <exception>
 
 #include <nlohmann/json.hpp>
 
@@ -23,12 +23,9 @@ class JsonParser {
   JsonParser(const std::string& path, LandmarkFile* file) : path_(path), file_(file) {}
 
   Status Parse() {
-    Json tree;
-    try {
-      tree = Json::parse(file_->text);
-    } catch (const std::exception& error) {
-      return Error(std::string("no JSON: ") + error.what());
-    }
+    const StatusOr<Json> parsed = ParseJson<Json>(path_, file_->text);
+    if (!parsed.ok()) return parsed.status();
+    const Json& tree = *parsed;
     if (tree.is_array()) return ParseScalismo(tree);
     const auto markups = tree.is_object() ? tree.find("markups") : tree.end();
     if (!tree.is_object() || markups == tree.end() || !markups->is_array()) {

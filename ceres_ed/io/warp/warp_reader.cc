@@ -1,5 +1,6 @@
 #include "ceres_ed/io/warp_io.h"
 
+#include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/io/warp/warp_format.h>
 
@@ -220,15 +221,9 @@ void ReadRepaired(const json& root, FieldReader* reader, bool* repaired) {
 StatusOr<Warp> ReadWarp(const std::string& path) {
   const StatusOr<std::string> text = ReadWholeFile(path);
   if (!text.ok()) return text.status();
-  json root;
-  try {
-    root = json::parse(*text);
-  } catch (const json::parse_error& error) {
-    return Status::Error(path + ": not JSON, or truncated: no valid value at byte " +
-                         std::to_string(error.byte));
-  } catch (const json::exception&) {
-    return Status::Error(path + ": not JSON: a number is beyond the range of double");
-  }
+  const StatusOr<json> parsed = ParseJson<json>(path, *text);
+  if (!parsed.ok()) return parsed.status();
+  const json& root = *parsed;
   FieldReader reader(path);
   Warp warp;
   ReadFormat(root, &reader);

@@ -1,5 +1,6 @@
 #include "ceres_ed/pipeline/report/run_reader.h"
 
+#include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/text.h>
 
 #include <filesystem>
@@ -32,16 +33,9 @@ StatusOr<FinishedRun> ReadFinishedRun(const std::string& path) {
   }
   StatusOr<std::string> text = ReadWholeFile(run.path);
   if (!text.ok()) return text.status();
-  // Values that lie deeper than those of any report are left out: what works on a value works on
-  // all that it has in it, and the stack is not without end.
-  constexpr int kMaxDepth = 64;
-  const auto is_kept = [](int depth,
-                          ordered_json::parse_event_t /*event*/,
-                          ordered_json& /*value*/) { return depth <= kMaxDepth; };
-  run.report = ordered_json::parse(*text, is_kept, /*allow_exceptions=*/false);
-  if (run.report.is_discarded()) {
-    return Status::Error(run.path + ": is no JSON, expected the report.json of a run");
-  }
+  StatusOr<ordered_json> report = ParseJson<ordered_json>(run.path, *text);
+  if (!report.ok()) return report.status();
+  run.report = *std::move(report);
   if (!run.report.is_object() || !run.report.contains("program")) {
     return Status::Error(run.path + ": has no \"program\", expected the report.json of a run");
   }

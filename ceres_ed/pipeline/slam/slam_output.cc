@@ -3,6 +3,7 @@
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/graph_io.h>
 #include <ceres_ed/io/image_io.h>
+#include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/results/covariance_files.h>
 #include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/io/results/map_ply.h>
@@ -154,10 +155,10 @@ Status ReopenFile(const std::string& path, double size, AppendFile* file) {
 bool HoldsResult(const std::string& directory) {
   const StatusOr<std::string> text = ReadWholeFile(directory + "/" + kReportName);
   if (!text.ok()) return false;
-  const auto report = nlohmann::json::parse(*text, nullptr, /*allow_exceptions=*/false);
-  if (!report.is_object()) return true;
-  const auto status = report.find("status");
-  return status == report.end() || (*status != "running" && *status != "failed");
+  const auto report = ParseJson<nlohmann::json>(kReportName, *text);
+  if (!report.ok() || !report->is_object()) return true;
+  const auto status = report->find("status");
+  return status == report->end() || (*status != "running" && *status != "failed");
 }
 
 StatusOr<std::unique_ptr<SlamOutput>> SlamOutput::Create(const std::string& directory,
