@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 namespace ceres_ed {
@@ -103,8 +104,7 @@ class CloudBuilder {
     if (!columns.has_value()) return;
     // Rec. 601 luma.
     const Eigen::Vector3d luminance(0.299, 0.587, 0.114);
-    Eigen::Vector3d share = luminance;
-    for (int i = 0; i < 3; ++i) share[i] /= LargestColor(vertices_->properties[(*columns)[i]].type);
+    const Eigen::Vector3d share = luminance / WhiteOf(*columns);
     loaded_.cloud.intensities.reserve(loaded_.cloud.size());
     for (const int row : loaded_.vertex_of_point) {
       const double value = share.dot(RowOf(*vertices_, *columns, static_cast<std::size_t>(row)));
@@ -114,13 +114,67 @@ class CloudBuilder {
     }
   }
 
+  // Returns the value of full brightness. The type tells it for bytes alone: floats may reach 1, or
+  // 255 as in the bytes that they come from, and these may stand in wider integers. The whole of
+  // the three columns decides, so that a dark vertex has the range of its neighbours.
+  double WhiteOf(const VertexColumns& columns) {
+    double largest = 0.0;
+    for (const std::size_t column : columns) {
+      for (const double value : vertices_->properties[column].values) {
+        if (std::isfinite(value)) largest = std::max(largest, value);
+      }
+    }
+    const PlyType type = vertices_->properties[columns[0]].type;
+    const double usual = LargestColor(type);
+    if (type == PlyType::kUint8 || type == PlyType::kInt8) return usual;
+    const bool is_float = type == PlyType::kFloat32 || type == PlyType::kFloat64;
+    // Highlights may be computed beyond full brightness; bytes that all are this dark show nothing.
+    constexpr double kBrightest = 16.0;
+    if (is_float && largest <= kBrightest) return usual;
+    for (const double white : {255.0, 65535.0}) {
+      if (largest > white || white == usual) continue;
+      std::ostringstream text;
+      text << "the largest colour is " << largest << ": colours are taken as 0 to " << white;
+      Warn(text.str());
+      return white;
+    }
+    return std::max(usual, largest);
+  }
+
+  // Triangles 0 1 2, 2 1 3, 2 3 4, ... of strips of vertices, which -1 separates. Corners that
+  // repeat join two strips and are no triangles.
+  Status AddStrips(const PlyElement& strips) {
+    const PlyProperty* const vertices = strips.Find("vertex_indices");
+    if (vertices == nullptr || !vertices->is_list) {
+      return Error("element 'tristrips' has no list 'vertex_indices'");
+    }
+    const double* strip = vertices->values.data();
+    for (std::size_t row = 0; row < strips.count; ++row) {
+      const std::size_t size = vertices->list_sizes[row];
+      std::size_t begin = 0;
+      for (std::size_t i = 0; i < size; ++i) {
+        if (strip[i] == -1.0) {
+          begin = i + 1;
+          continue;
+        }
+        if (!IsVertex(strip[i])) return IndexError("strip", row, strip[i]);
+        if (i < begin + 2) continue;
+        const bool is_odd = (i - begin) % 2 != 0;
+        const double a = strip[is_odd ? i - 1 : i - 2];
+        const double b = strip[is_odd ? i - 2 : i - 1];
+        if (a != b && b != strip[i] && strip[i] != a) AddTriangle(a, b, strip[i]);
+      }
+      strip += size;
+    }
+    WarnOfDroppedFaces();
+    return Status::Ok();
+  }
+
   Status AddTriangles() {
     const PlyElement* const faces = loaded_.document.Find("face");
     if (faces == nullptr || faces->count == 0) {
-      if (loaded_.document.Find("tristrips") != nullptr) {
-        Warn("triangle strips are not read: the points are used without faces");
-      }
-      return Status::Ok();
+      const PlyElement* const strips = loaded_.document.Find("tristrips");
+      return strips != nullptr ? AddStrips(*strips) : Status::Ok();
     }
     const PlyProperty* corners = faces->Find("vertex_indices");
     if (corners == nullptr) corners = faces->Find("vertex_index");
@@ -132,7 +186,7 @@ class CloudBuilder {
     for (std::size_t face = 0; face < faces->count; ++face) {
       const std::size_t size = corners->list_sizes[face];
       for (std::size_t i = 0; i < size; ++i) {
-        if (!IsVertex(polygon[i])) return IndexError(face, polygon[i]);
+        if (!IsVertex(polygon[i])) return IndexError("face", face, polygon[i]);
       }
       if (size < 3) ++small_polygons_;
       AddPolygon(polygon, size);
@@ -190,11 +244,11 @@ class CloudBuilder {
     }
   }
 
-  Status IndexError(std::size_t face, double index) const {
+  Status IndexError(const std::string& what, std::size_t row, double index) const {
     const bool whole = index == std::floor(index) && std::abs(index) < 1e15;
     const std::string name =
         whole ? std::to_string(static_cast<long long>(index)) : std::to_string(index);
-    return Error("face " + std::to_string(face) + " names vertex " + name + ", the file has " +
+    return Error(what + ' ' + std::to_string(row) + " names vertex " + name + ", the file has " +
                  std::to_string(vertices_->count));
   }
 

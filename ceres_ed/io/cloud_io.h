@@ -34,11 +34,11 @@ struct LoadedCloud {
 //   - Points are x y z of element 'vertex', of any type.
 //   - Normals are nx ny nz or normal_x normal_y normal_z, scaled to unit length. A normal that is
 //     zero or not finite becomes zero.
-//   - Intensities are 0.299 R + 0.587 G + 0.114 B from red green blue. Floats are in [0, 1];
-//     integers are divided by the largest number of their type. An intensity is NaN if a colour is
-//     not finite.
-//   - Triangles are from the list vertex_indices or vertex_index of element 'face'. Polygons are
-//     divided into fans of triangles.
+//   - Intensities are 0.299 R + 0.587 G + 0.114 B from red green blue, as parts of full brightness
+//     (1 for floats, the largest number of an integer type, or what the whole column shows: floats
+//     and shorts up to 255 give a warning). An intensity is NaN if a colour is not finite.
+//   - Triangles are from the list vertex_indices or vertex_index of element 'face', or else from
+//     the strips of 'tristrips'. Polygons are cut into triangles.
 //
 // The warnings begin with those of the reader. Left out with a warning: points that are not finite
 // and their triangles, polygons of fewer than three corners, and triangles that use a vertex twice.

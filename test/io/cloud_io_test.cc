@@ -71,6 +71,49 @@ TEST_F(CloudIo, ReadsBrightnessFromColorsOfAnyType) {
   EXPECT_NEAR(shorts->cloud.intensities[0], 0.299, 1e-15);
 }
 
+TEST_F(CloudIo, TheWholeColumnTellsTheRangeOfColors) {
+  const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
+  for (const std::string type : {"float", "double", "int", "uint", "ushort", "short"}) {
+    const std::string columns = xyz + "property " + type + " red\nproperty " + type +
+                                " green\nproperty " + type + " blue\n";
+    const StatusOr<LoadedCloud> loaded =
+        Load(PointsPly(columns, {"0 0 0 51 51 51", "1 0 0 1 1 1", "0 1 0 254 0 0"}));
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    EXPECT_NEAR(loaded->cloud.intensities[0], 0.2, 1e-12) << type;
+    EXPECT_NEAR(loaded->cloud.intensities[1], 1.0 / 255.0, 1e-12) << type;
+    EXPECT_THAT(loaded->warnings,
+                ElementsAre(path_ + ": the largest colour is 254: colours are taken as 0 to 255"))
+        << type;
+  }
+  const StatusOr<LoadedCloud> wide =
+      Load(PointsPly(xyz + "property float red\nproperty float green\nproperty float blue\n",
+                     {"0 0 0 13107 13107 13107", "1 0 0 60000 1 1"}));
+  ASSERT_TRUE(wide.ok()) << wide.status().message();
+  EXPECT_NEAR(wide->cloud.intensities[0], 0.2, 1e-12);
+}
+
+// The strip 0 1 2 3, then 4 5 6, then one that repeats a corner.
+TEST_F(CloudIo, ReadsTriangleStrips) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 7\n";
+  text += "property float x\nproperty float y\nproperty float z\n";
+  const std::string strips = "element tristrips 2\nproperty list int int vertex_indices\n";
+  std::string rows = "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n3 0 0\n";
+  rows += "8 0 1 2 3 -1 4 5 6\n4 0 1 1 2\n";
+  for (const std::string faces : {"", "element face 0\nproperty list uchar int vertex_indices\n"}) {
+    const StatusOr<LoadedCloud> loaded = Load(text + faces + strips + rows);
+    ASSERT_TRUE(loaded.ok()) << loaded.status().message();
+    using Triangle = std::array<int, 3>;
+    EXPECT_THAT(loaded->cloud.triangles,
+                ElementsAre(Triangle{0, 1, 2}, Triangle{2, 1, 3}, Triangle{4, 5, 6}));
+    EXPECT_THAT(loaded->warnings, ElementsAre());
+  }
+  const StatusOr<LoadedCloud> beyond =
+      Load(text + strips +
+           "end_header\n0 0 0\n0 1 0\n1 0 0\n1 1 0\n2 0 0\n2 1 0\n3 0 0\n"
+           "3 0 1 7\n3 0 1 2\n");
+  EXPECT_EQ(beyond.status().message(), path_ + ": strip 0 names vertex 7, the file has 7");
+}
+
 TEST_F(CloudIo, HasNoBrightnessWithoutAllThreeColors) {
   const StatusOr<LoadedCloud> loaded =
       Load(PointsPly("property float x\nproperty float y\nproperty float z\nproperty uchar red\n"
