@@ -97,6 +97,21 @@ TEST(FitVerdict, NamesEachFigureThatIsNotAsItShouldBe) {
   }
 }
 
+// A sheet that shows all of another one is larger on one side alone.
+TEST(FitVerdict, DoubtsFlatSheetsThatLieBesideEachOther) {
+  FitResult result = GoodFit();
+  result.evidence.relief = 0.002;
+  result.evidence.bend = 0.005;
+  result.evidence.source = {0.98, 0.0, 0.02};
+  EXPECT_EQ(Judge(result).grade, Grade::kGood);
+  result.evidence.target = {0.97, 0.0, 0.03};
+  EXPECT_EQ(Judge(result).grade, Grade::kDoubtful);
+  EXPECT_THAT(Judge(result).Sentence(), HasSubstr("slid along it, by about 2 %"));
+  // What overlaps only in part may have a relief that holds it.
+  result.evidence.relief = 0.12;
+  EXPECT_EQ(Judge(result).grade, Grade::kGood);
+}
+
 TEST(FitVerdict, AsksForTheUnitWhereTheSizesDiffer) {
   FitResult result = GoodFit();
   result.evidence.target = {0.73, 0.27, 0.0};

@@ -51,11 +51,15 @@ std::string AdviceOnCover(const FitVerdictInput& input) {
 }
 
 // Returns the mean error that sliding along the surface may cause: the part of the motion that the
-// shape of the surface does not determine.
+// shape of the surface does not determine. Where each of two flat surfaces goes on beyond the
+// border of the other one, they lie beside each other by about that share of their length: one
+// surface that shows less than the other would leave nothing on one side.
 double SlidingEstimate(const FitEvidence& evidence) {
   if (evidence.relief < 0.0) return 0.0;
   const double ratio = kRelief / std::max(evidence.relief, 1e-6);
-  return evidence.bend * std::min(kMaxSliding, ratio * ratio);
+  const double beside = std::min(evidence.source.unseen, evidence.target.unseen);
+  return std::max(evidence.bend * std::min(kMaxSliding, ratio * ratio),
+                  beside * std::min(1.0, ratio * ratio));
 }
 
 void JudgeCover(const FitVerdictInput& input, Verdict* verdict) {
