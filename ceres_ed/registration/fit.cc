@@ -1,6 +1,7 @@
 #include "ceres_ed/registration/fit.h"
 
 #include <ceres_ed/energy/energy_registry.h>
+#include <ceres_ed/geometry/near_copies.h>
 #include <ceres_ed/geometry/normals.h>
 #include <ceres_ed/geometry/spatial_order.h>
 #include <ceres_ed/geometry/surface.h>
@@ -169,9 +170,10 @@ void Fitter::Finish(const UnitFit& fit, const BuiltGraph& graph, const Deformati
   result_.warp = WarpInSourceFrame(
       graph, state, input_.source.points, unit_from_target_ * result_.rigid, result_.rigid);
   result_.skinning = graph.skinning;
-  if (result_.warp.binding.neighbors == 1) {
-    // A point between two nodes belongs wholly to one of them, and rounding decides to which one:
-    // the binding in the source frame is the one that everybody else finds who applies the warp.
+  if (result_.warp.binding.neighbors == 1 || HasNearCopies(input_.source.points)) {
+    // A point between two nodes belongs wholly to one of them, and rounding decides to which one;
+    // it also decides which points are one, where they are apart by no more than rounding. The
+    // binding in the source frame is the one that everybody else finds who applies the warp.
     StatusOr<Skinning> bound =
         BindCloudToGraph(input_.source, result_.warp.graph, result_.warp.binding);
     if (bound.ok()) result_.skinning = *std::move(bound);
