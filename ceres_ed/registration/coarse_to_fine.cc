@@ -34,6 +34,14 @@ Status CoarseToFine::FollowFinest(Attempt* attempt,
   return Status::Ok();
 }
 
+void CoarseToFine::Note(const Attempt& attempt) {
+  if (!fit_.options->covariance) return;
+  ways_.Add(fit_.source->cloud().points,
+            (*graphs_)[attempt.graph],
+            attempt.state,
+            fit_.options->num_threads);
+}
+
 void CoarseToFine::Take(Attempt attempt, FitResult* result) {
   graph_ = attempt.graph;
   state_ = std::move(attempt.state);
@@ -64,6 +72,7 @@ Status CoarseToFine::FollowFine(std::vector<Attempt> attempts, FitResult* result
       problem_ = std::move(problem);
       if (i > 0) std::swap(attempts[0], attempts[i]);
     }
+    if (i > 0) Note(attempts[i]);
     if (is_stopped) break;
   }
   best_result.times = result->times;
@@ -97,6 +106,7 @@ Status CoarseToFine::Run(FitResult* result) {
     Take(std::move(attempts->front()), result);
     return Status::Ok();
   }
+  for (const Attempt& attempt : *attempts) Note(attempt);
   Status status = FollowFine(Finalists(*std::move(attempts)), result);
   if (status.ok()) Conclude(result);
   return status;
@@ -111,7 +121,7 @@ void CoarseToFine::Conclude(FitResult* result) {
     state_ = DeformationState(graph().graph.num_nodes());
     result->final_energy = result->initial_energy;
   } else if (fit_.options->covariance && !result->EndedEarly()) {
-    MeasureUncertainty(fit_, graph(), state_, problem_.get(), result);
+    MeasureUncertainty(fit_, graph(), state_, ways_, problem_.get(), result);
   }
   if (result->rigid_only || result->EndedEarly()) return;
   std::optional<DeformationState> rigid = RigidModel(fit_, graph(), state_);

@@ -8,6 +8,7 @@
 #include <ceres_ed/registration/graph_pyramid.h>
 #include <ceres_ed/registration/hypotheses/portfolio.h>
 #include <ceres_ed/registration/nonrigid_loop.h>
+#include <ceres_ed/registration/uncertainty/way_spread.h>
 #include <ceres_ed/registration/unit_fit.h>
 
 #include <memory>
@@ -39,6 +40,8 @@ class CoarseToFine {
   Status FollowFinest(Attempt* attempt,
                       std::unique_ptr<FitProblem>* problem,
                       FitResult* result) const;
+  // Notes where an attempt ends.
+  void Note(const Attempt& attempt);
   // Makes the state of `attempt` that of the fit.
   void Take(Attempt attempt, FitResult* result);
   // Returns to the rigid placement, with a warning, if the deformation is worse than that, and
@@ -54,6 +57,8 @@ class CoarseToFine {
   DeformationState state_;
   // The problem on the finest graph of which `state_` is the solution.
   std::unique_ptr<FitProblem> problem_;
+  // The ends of the ways that were followed, if the uncertainty is asked for.
+  WaySpread ways_;
 };
 
 }  // namespace ceres_ed

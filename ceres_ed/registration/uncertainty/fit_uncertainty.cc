@@ -1,5 +1,6 @@
 #include "ceres_ed/registration/uncertainty/fit_uncertainty.h"
 
+#include <ceres_ed/graph/warp.h>
 #include <ceres_ed/linear_algebra/block_structure.h>
 #include <ceres_ed/registration/uncertainty/smooth_modes.h>
 #include <ceres_ed/registration/uncertainty/statistical_weights.h>
@@ -8,7 +9,9 @@
 #include <ceres_ed/util/parallel.h>
 #include <ceres_ed/util/timer.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -114,6 +117,44 @@ Eigen::Vector3d PointChange(const Eigen::VectorXd& change,
   return moved;
 }
 
+// How much more is unknown where no node has data, because of what smooth modes leave out.
+class Extrapolation {
+ public:
+  Extrapolation(const BuiltGraph& graph, std::vector<char> is_observed)
+      : graph_(graph), is_observed_(std::move(is_observed)) {
+    constexpr double kHalf = 0.5;
+    std::size_t hidden = 0;
+    const std::size_t size = graph_.skinning.size();
+    for (std::size_t p = 0; p < size; ++p) {
+      if (SeenShare(graph_.skinning[static_cast<int>(p)]) < kHalf) ++hidden;
+    }
+    const double ratio =
+        static_cast<double>(hidden) / static_cast<double>(std::max<std::size_t>(size - hidden, 1));
+    excess_ = ratio * ratio;
+  }
+
+  // Returns the factor of the variance of a point.
+  double Factor(const Binding& binding) const { return 1.0 + (1.0 - SeenShare(binding)) * excess_; }
+
+ private:
+  // Returns the weight of the nodes with data.
+  double SeenShare(const Binding& binding) const {
+    double share = 0.0;
+    for (int i = 0; i < binding.size; ++i) {
+      if (is_observed_[binding.nodes[i]] != 0) share += binding.weights[i];
+    }
+    return std::min(share, 1.0);
+  }
+
+  const BuiltGraph& graph_;
+  const std::vector<char> is_observed_;
+  // Modes of the next degree have coefficients that are smaller by the extent of the seen part, on
+  // which the deformation was found, and values that are larger by the extent of the hidden part:
+  // the ratio of the areas, as a variance. The modes at hand have degrees up to two, so that those
+  // that are left out begin two degrees above the linear ones.
+  double excess_ = 0.0;
+};
+
 void WarnAboutNodes(const std::vector<int>& undetermined, int num_nodes, FitResult* result) {
   if (undetermined.empty()) return;
   std::ostringstream message;
@@ -145,6 +186,7 @@ void DropUncertainty(const std::string& why, FitResult* result) {
 void MeasureUncertainty(const UnitFit& fit,
                         const BuiltGraph& graph,
                         const DeformationState& state,
+                        const WaySpread& ways,
                         FitProblem* problem,
                         FitResult* result) {
   const Timer timer;
@@ -157,6 +199,7 @@ void MeasureUncertainty(const UnitFit& fit,
                                {&graph.skinning, num_threads});
   if (!covariance.ok()) return DropUncertainty(covariance.status().message(), result);
   const std::vector<Eigen::VectorXd> errors = ModeErrors(fit, graph, state, *covariance, problem);
+  const Extrapolation extrapolation(graph, problem->builder().PointRelevantNodes());
   FitUncertainty& uncertainty = result->uncertainty;
   const std::vector<Eigen::Vector3d>& points = fit.source->cloud().points;
   uncertainty.covariances.resize(points.size());
@@ -168,7 +211,10 @@ void MeasureUncertainty(const UnitFit& fit,
         const Eigen::Vector3d change = PointChange(error, graph.graph, binding, points[p]);
         sum += change * change.transpose();
       }
-      uncertainty.covariances[p] = FitUncertainty::kScale * sum;
+      const Eigen::Vector3d place = WarpPoint(graph.graph, state, binding, points[p]);
+      uncertainty.covariances[p] =
+          FitUncertainty::kScale *
+          (extrapolation.Factor(binding) * sum + ways.About(place, static_cast<std::size_t>(p)));
     }
   });
   uncertainty.undetermined_nodes = covariance->undetermined();

@@ -5,6 +5,7 @@
 #include <ceres_ed/graph/graph_builder.h>
 #include <ceres_ed/registration/fit_problem.h>
 #include <ceres_ed/registration/fit_types.h>
+#include <ceres_ed/registration/uncertainty/way_spread.h>
 #include <ceres_ed/registration/unit_fit.h>
 
 #include <string>
@@ -12,12 +13,14 @@
 
 namespace ceres_ed {
 
-// Fills in `result->uncertainty` for `problem` at `state`, the end of its last round. Lengths are
-// in the unit frame. If something is missing, a warning says so. Changes the weights of the
-// problem, which must not be solved any more.
+// Fills in `result->uncertainty` for `problem` at `state`, the end of its last round. `ways` has
+// the ends of the other ways that were followed. Lengths are in the unit frame. If something is
+// missing, a warning says so. Changes the weights of the problem, which must not be solved any
+// more.
 void MeasureUncertainty(const UnitFit& fit,
                         const BuiltGraph& graph,
                         const DeformationState& state,
+                        const WaySpread& ways,
                         FitProblem* problem,
                         FitResult* result);
 
