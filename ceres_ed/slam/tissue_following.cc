@@ -2,6 +2,7 @@
 // growth.
 #include <ceres_ed/slam/frame/association.h>
 #include <ceres_ed/slam/frame/still_tissue.h>
+#include <ceres_ed/slam/levels/common_motion.h>
 #include <ceres_ed/slam/levels/edge_weights.h>
 #include <ceres_ed/slam/levels/level_covariance.h>
 #include <ceres_ed/slam/tracker.h>
@@ -14,6 +15,7 @@
 #include <utility>
 
 #include <Eigen/LU>
+#include <cost_functions/node_parameters.h>
 
 namespace ceres_ed {
 namespace {
@@ -201,6 +203,8 @@ void Tracker::MeasureCovariances(const FrameObservations& observations, FrameRep
       levels_->MeasureLevelOne(observations, slots, map_);
   if (!level.ok()) return;
   LevelCovariance::Matrix6d camera = (*level)->MapFromCamera();
+  // A camera that was given is certain.
+  if (!camera.isZero(0.0)) camera += CommonMotionCovariance(observations, nodes_before_, map_);
   if (camera.allFinite()) {
     camera.topRows<3>() *= unit_;
     camera.leftCols<3>() *= unit_;
@@ -234,6 +238,12 @@ void Tracker::Deform(const ObservedSurface& surface, bool catch_up, FrameReport*
     UpdateEdgeWeights(levels_->point_relevant().nodes(), options_.levels.yield_strain, &map_);
   }
   levels_->BeginFrame();
+  if (options_.covariance) {
+    nodes_before_.clear();
+    for (int j = 0; j < map_.state().num_nodes(); ++j) {
+      nodes_before_.push_back(NodeTranslation(map_.state().node(j)));
+    }
+  }
   const FrameObservations observations = FollowSeen(surface, report);
   if (options_.covariance) MeasureCovariances(observations, report);
   FollowHidden(catch_up, report);

@@ -119,6 +119,8 @@ class Tracker final : public DeformableSlam {
   // The number of nodes at the start of the last growth.
   int nodes_before_growth_ = 0;
   PointCovariances covariances_;
+  // With covariances: the translations of the nodes ahead of this frame's Level I.
+  std::vector<Eigen::Vector3d> nodes_before_;
   // Whether the tissue seemed still in the last frame that was followed.
   bool was_still_ = true;
   // The last motion of the camera, along the directions that the data determined.
