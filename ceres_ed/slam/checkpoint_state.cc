@@ -128,6 +128,7 @@ void CornerStore::Exchange(int num_nodes, CheckpointArchive* archive) {
       "coarse", &corners_, [](Corner & f) -> auto& { return f.patch.levels[1]; });
   archive->Column(
       "descriptor", &corners_, [](Corner & f) -> auto& { return f.descriptor; });
+  archive->Column("weight", &corners_, [](Corner& f) -> double& { return f.weight; });
   archive->Column("misses", &corners_, [](Corner& f) -> int& { return f.misses; });
   archive->Column("birth", &corners_, [](Corner& f) -> int& { return f.birth; });
   archive->Array("followed", &followed_);

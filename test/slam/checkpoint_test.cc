@@ -146,7 +146,7 @@ TEST(Checkpoint, SaysOfWhatVersionAnOlderOneIs) {
                               {"payload", nlohmann::json::binary({1, 2, 3})}};
   std::string bytes;
   nlohmann::json::to_cbor(old, bytes);
-  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 4"));
+  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 5"));
 }
 
 TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {
@@ -176,10 +176,18 @@ TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {
   EXPECT_THAT((*reader)->status().message(), HasSubstr("expected a multiple of 88"));
 }
 
-// Tracks frames [first, last) of a sheet that moves up and down.
-std::vector<FrameReport> Track(int first, int last, DeformableSlam* slam) {
+// A sheet that moves up and down.
+BumpyScene HeavingScene() {
   BumpyScene scene;
   scene.heave = 0.001;
+  return scene;
+}
+
+// Tracks frames [first, last) of a scene.
+std::vector<FrameReport> Track(int first,
+                               int last,
+                               DeformableSlam* slam,
+                               const BumpyScene& scene = HeavingScene()) {
   std::vector<FrameReport> reports;
   for (int i = first; i < last; ++i) {
     const DepthImage depth = scene.RenderDepth(i);
@@ -218,6 +226,32 @@ TEST(Checkpoint, RefusesACornerOfANodeThatDoesNotExist) {
   }
 }
 
+TEST(Checkpoint, KeepsTheWeightsOfCornersAndTheirOrderAtANode) {
+  CornerStore saved;
+  Corner corner;
+  corner.num_nodes = 1;
+  corner.nodes[0] = 2;
+  corner.weights[0] = 1.0;
+  corner.weight = 0.25;
+  for (int i = 0; i < 3; ++i) saved.Add(corner);
+  // The next corner takes the slot of the one that is removed.
+  saved.FollowOnly({0, 2});
+  saved.Remove(1);
+  saved.Add(corner);
+  EXPECT_EQ(saved.OfNode(2), (std::vector<int>{0, 1, 2}));
+
+  CheckpointWriter writer;
+  saved.Exchange(/*num_nodes=*/5, &writer);
+  const auto reader = CheckpointReader::Open(writer.TakeBytes());
+  ASSERT_TRUE(reader.ok());
+  CornerStore loaded;
+  loaded.Exchange(/*num_nodes=*/5, reader->get());
+  ASSERT_TRUE((*reader)->status().ok()) << (*reader)->status().message();
+  EXPECT_EQ(loaded.OfNode(2), saved.OfNode(2));
+  EXPECT_EQ(loaded.followed(), saved.followed());
+  for (int slot = 0; slot < 3; ++slot) EXPECT_EQ(loaded[slot].weight, 0.25) << "slot " << slot;
+}
+
 TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {
   const std::unique_ptr<DeformableSlam> saved = MakeBumpySlam();
   Track(0, 4, saved.get());
@@ -238,6 +272,31 @@ TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {
   EXPECT_GT(one.back().features, 0);
   EXPECT_EQ(one.back().energy, other.back().energy);
   EXPECT_EQ(one.back().features, other.back().features);
+  EXPECT_TRUE(SaveSlam(saved.get()) == SaveSlam(loaded.get()));
+}
+
+// Corners leave the view, are forgotten, and give their slots to new ones.
+TEST(Checkpoint, ALongRunGoesOnAsTheSavedOne) {
+  constexpr int kSaveAt = 12;
+  const ShortSequence sequence(SyntheticSceneKind::kHeart,
+                               /*num_frames=*/16,
+                               SyntheticSequenceOptions().period,
+                               SyntheticSequenceOptions().noise);
+  const std::unique_ptr<DeformableSlam> saved = MakeSlam(sequence.camera);
+  for (int k = 0; k < kSaveAt; ++k) saved->Process(sequence.Frame(k));
+  const std::string bytes = SaveSlam(saved.get());
+
+  const std::unique_ptr<DeformableSlam> loaded = MakeSlam(sequence.camera);
+  const auto reader = CheckpointReader::Open(bytes);
+  ASSERT_TRUE(reader.ok());
+  loaded->Exchange(reader->get());
+  ASSERT_TRUE((*reader)->status().ok()) << (*reader)->status().message();
+  for (std::size_t k = kSaveAt; k < sequence.frames.size(); ++k) {
+    const FrameReport one = saved->Process(sequence.Frame(static_cast<int>(k)));
+    const FrameReport other = loaded->Process(sequence.Frame(static_cast<int>(k)));
+    EXPECT_EQ(one.energy, other.energy) << "frame " << k;
+    EXPECT_EQ(one.features, other.features) << "frame " << k;
+  }
   EXPECT_TRUE(SaveSlam(saved.get()) == SaveSlam(loaded.get()));
 }
 

@@ -38,7 +38,9 @@ void CornerStore::Add(const Corner& corner) {
   Follow(slot);
   const int node = corner.nodes[0];
   if (node >= static_cast<int>(of_node_.size())) of_node_.resize(node + 1);
-  of_node_[node].push_back(slot);
+  // In ascending order, as in a state that was loaded.
+  std::vector<int>& list = of_node_[node];
+  list.insert(std::lower_bound(list.begin(), list.end(), slot), slot);
 }
 
 void CornerStore::Remove(int slot) {
