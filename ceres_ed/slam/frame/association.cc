@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace ceres_ed {
 namespace {
+
+// The order of the points is not that of the patches, so that most patches are not in the cache
+// when it is their turn. They are fetched so many points earlier.
+constexpr std::size_t kAhead = 8;
 
 // Returns the inverse of the variance of a patch, relative to a typical one.
 double NoiseWeight(const SurfacePatch& patch) {
@@ -26,17 +31,18 @@ AssociationResult Associate(const std::vector<VisiblePoint>& points,
   const Eigen::Matrix3d rotation = camera_from_map.rotation.toRotationMatrix();
   std::vector<double> distances;
   distances.reserve(points.size());
-  for (int i = 0; i < static_cast<int>(points.size()); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const VisiblePoint& point = points[i];
+    if (i + kAhead < points.size()) surface.Prefetch(points[i + kAhead].pixel);
     const SurfacePatch* patch = surface.Find(point.pixel);
     if (patch == nullptr) continue;
     ++result.measured;
     Association match;
-    match.visible = i;
+    match.visible = static_cast<int>(i);
     match.patch = patch;
     match.distance = patch->normal.dot(point.in_camera - patch->point);
     if (std::abs(match.distance) > options.max_distance) {
-      if (match.distance > 0.0) result.seen_through.push_back(i);
+      if (match.distance > 0.0) result.seen_through.push_back(static_cast<int>(i));
       if (match.distance < -options.occluded_distance) ++result.occluded;
       continue;
     }

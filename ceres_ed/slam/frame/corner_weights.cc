@@ -29,12 +29,16 @@ std::vector<double> WeighCorners(const std::vector<PointMatch>& matches,
   std::vector<Eigen::Vector3d> motions;
   motions.reserve(matches.size());
   for (const PointMatch& m : matches) motions.push_back(m.in_camera - camera_from_map * m.in_map);
-  std::vector<std::pair<double, std::size_t>> order(matches.size());
+  constexpr double kMostSquared = kWeighingDistance * kWeighingDistance;
+  std::vector<std::pair<double, std::size_t>> order;
+  order.reserve(matches.size());
   std::array<std::vector<double>, 3> near;
   std::vector<double> weights(matches.size());
   for (std::size_t k = 0; k < matches.size(); ++k) {
+    order.clear();
     for (std::size_t n = 0; n < matches.size(); ++n) {
-      order[n] = {(matches[n].in_map - matches[k].in_map).squaredNorm(), n};
+      const double squared = (matches[n].in_map - matches[k].in_map).squaredNorm();
+      if (squared <= kMostSquared) order.emplace_back(squared, n);
     }
     // The corner itself is the nearest one.
     const std::size_t count = std::min<std::size_t>(kWeighingNeighbors + 1, order.size());
@@ -42,7 +46,6 @@ std::vector<double> WeighCorners(const std::vector<PointMatch>& matches,
         order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end());
     for (std::vector<double>& values : near) values.clear();
     for (std::size_t n = 1; n < count; ++n) {
-      if (order[n].first > kWeighingDistance * kWeighingDistance) break;
       for (int axis = 0; axis < 3; ++axis) near[axis].push_back(motions[order[n].second][axis]);
     }
     weights[k] = kLonelyWeight;

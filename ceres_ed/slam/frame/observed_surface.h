@@ -69,18 +69,30 @@ class ObservedSurface {
   // Returns the patch nearest to a pixel, or null if there is none or the pixel is outside the
   // picture.
   const SurfacePatch* Find(const Eigen::Vector2d& pixel) const {
+    const SurfacePatch* patch = At(pixel);
+    return patch != nullptr && patch->valid() ? patch : nullptr;
+  }
+  // Starts to load the patch that Find() will be asked for into the cache.
+  void Prefetch(const Eigen::Vector2d& pixel) const {
+#if defined(__GNUC__)
+    const SurfacePatch* patch = At(pixel);
+    if (patch == nullptr) return;
+    __builtin_prefetch(patch);
+    // A patch may lie on two lines.
+    __builtin_prefetch(&patch->relative_noise);
+#endif
+  }
+
+ private:
+  // Returns the patch nearest to a pixel, valid or not, or null outside of the picture.
+  const SurfacePatch* At(const Eigen::Vector2d& pixel) const {
     // This test precedes the cast, which is undefined for values outside the range of int.
     if (!(pixel.x() >= -0.5 && pixel.y() >= -0.5 && pixel.x() < camera_.width - 0.5 &&
           pixel.y() < camera_.height - 0.5)) {
       return nullptr;
     }
-    const int i = NearestPixel(pixel.x()) / cell_;
-    const int j = NearestPixel(pixel.y()) / cell_;
-    const SurfacePatch& patch = patches_(i, j);
-    return patch.valid() ? &patch : nullptr;
+    return &patches_(NearestPixel(pixel.x()) / cell_, NearestPixel(pixel.y()) / cell_);
   }
-
- private:
   // Takes the noise from a model in the unit of the surface.
   void UseModel(const DepthNoise& model);
 

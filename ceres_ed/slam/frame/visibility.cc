@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
 namespace ceres_ed {
@@ -78,8 +79,12 @@ bool InPicture(const PinholeCamera& camera, const Eigen::Vector2d& pixel) {
 std::vector<VisiblePoint> PointsInPicture(const DeformableMap& map,
                                           const CameraPose& camera_from_map,
                                           const PinholeCamera& camera) {
+  const std::vector<int> near = map.NodesNearView(ViewVolume(camera_from_map, camera));
+  std::size_t most = 0;
+  for (const int node : near) most += map.points_of_node(node).size();
   std::vector<VisiblePoint> points;
-  for (const int node : map.NodesNearView(ViewVolume(camera_from_map, camera))) {
+  points.reserve(most);
+  for (const int node : near) {
     for (const int slot : map.points_of_node(node)) {
       const VisiblePoint point = Look(map, camera_from_map, camera, slot);
       if (InPicture(camera, point.pixel)) points.push_back(point);
