@@ -30,6 +30,9 @@ constexpr double kLeastNoise = 1e-4;
 // elsewhere.
 constexpr double kLeastLossWidth = 1.0;
 constexpr double kLeastFeatureDeviation = 0.2;
+// The motion of the tissue in a frame for which the weight of the node prior is meant, in map
+// units.
+constexpr double kUsualMotion = 0.1;
 // A frame ends when a round reduces the energy by less than this share.
 constexpr int kLeastRounds = 2;
 constexpr double kSmallGain = 0.1;
@@ -76,6 +79,14 @@ double Tracker::FeatureDeviation() const {
     distances.push_back((pose * m.in_map - m.in_camera).norm());
   }
   return RobustDeviation(std::move(distances));
+}
+
+// Returns by how much less than usual the nodes are held where they were: the prior is that of a
+// random walk, whose variance is the square of how far the tissue moves in a frame. What the rigid
+// alignment leaves of the corners' motion tells how far that is, for example if frames are missing.
+double Tracker::NodePriorShare() const {
+  const double motion = FeatureDeviation();
+  return motion > kUsualMotion ? kUsualMotion * kUsualMotion / (motion * motion) : 1.0;
 }
 
 // Decides whether the deformation of the map explains the frame already, so that Level I would only
@@ -159,8 +170,10 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
   for (int round = 0; round < options_.rounds; ++round) {
     const AssociationResult association = Associate(visible_, pose, surface, AssociationOptions());
     const CameraPose prior = observations.camera_prior;
+    const double share = round == 0 ? NodePriorShare() : observations.node_prior_share;
     observations = Observe(association);
     observations.camera_prior = prior;
+    observations.node_prior_share = share;
     observations.plane_width =
         std::max(kLossWidth * std::max(association.deviation, noise), kLeastLossWidth);
     observations.features = features_.Observations();

@@ -85,6 +85,7 @@ class Tracker final : public DeformableSlam {
   void NoteRecalled();
   void NoteNewNodes();
   double FeatureDeviation() const;
+  double NodePriorShare() const;
   void Measure(const AssociationResult& association, double noise, FrameReport* report);
   void Fuse(const AssociationResult& association, int frame, double noise);
   // Notes that a visible point, whose data are `point`, is not where it should be, and removes it

@@ -355,6 +355,21 @@ TEST(Levels, CountDataPerNodeWhateverTheirNumber) {
   EXPECT_LT(LargestDifference(once.map.state(), twice.map.state()), 1e-9);
 }
 
+TEST(Levels, HoldNodesByTheShareOfTheFrame) {
+  LevelScene shared;
+  shared.observations.node_prior_share = 0.25;
+  LevelScene weak;
+  const LevelsOptions options = ThreeSteps(2, BoundaryEdges::kKeep);
+  LevelsOptions weak_options = options;
+  weak_options.node_prior_weight *= 0.25;
+  MakeLevels(options)->SolveLevelOne(shared.observations, nullptr, &shared.map);
+  MakeLevels(weak_options)->SolveLevelOne(weak.observations, nullptr, &weak.map);
+  EXPECT_LT(LargestDifference(shared.map.state(), weak.map.state()), 1e-12);
+  LevelScene whole;
+  MakeLevels(options)->SolveLevelOne(whole.observations, nullptr, &whole.map);
+  EXPECT_GT(LargestDifference(shared.map.state(), whole.map.state()), 1e-4);
+}
+
 TEST(Levels, TakeMoreEnergiesByName) {
   const EnergyRegistry registry = BuiltinEnergies();
   LevelsOptions options;

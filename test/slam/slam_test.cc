@@ -336,6 +336,19 @@ TEST(DeformableSlam, FollowsTissueThatDeformsSlowly) {
   EXPECT_LT(Evaluate(slow, run).back().tracking_seen->mean, TissueMotion(slow, 23) / 3.0);
 }
 
+// As if four frames of five were missing: what holds nodes where they were must give way.
+TEST(DeformableSlam, FollowsTissueThatDeformsFast) {
+  const SyntheticSequenceOptions usual;
+  const ShortSequence fast(
+      SyntheticSceneKind::kStomach, /*num_frames=*/10, usual.period / 5.0, usual.noise);
+  const SlamRun run(fast, SlamOptions());
+  double sum = 0.0;
+  const std::vector<FrameTruthError> errors = Evaluate(fast, run);
+  for (const FrameTruthError& error : errors) sum += error.tracking_seen->mean;
+  // It is 1.5 pixels if the nodes are held as firmly as in slow motion.
+  EXPECT_LT(sum / static_cast<double>(errors.size()), 1.2 * PixelSize(fast));
+}
+
 // Nearly half of the picture has no depth in some frames.
 TEST(DeformableSlam, DepthThatDropsOutIsNoEvidenceAgainstTheCamera) {
   const ShortSequence& sequence = KidneySequence();

@@ -37,6 +37,8 @@ struct FrameObservations {
   double feature_width = 1.0;
   // The pose at which the pose prior holds the camera.
   CameraPose camera_prior;
+  // Multiplies the weight with which nodes are held where they were, in (0, 1].
+  double node_prior_share = 1.0;
 };
 
 }  // namespace ceres_ed

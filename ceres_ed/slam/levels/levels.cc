@@ -23,6 +23,8 @@ std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
   TermRule features = planes;
   features.loss_width = LossWidth::kFeatures;
   features.pairs = PairSource::kFeatures;
+  TermRule places;
+  places.stiff = true;
   TermRule camera;
   camera.levels = TermLevels::kLevelOne;
   const double feature_weight = options.plane_weight * options.feature_weight;
@@ -31,7 +33,7 @@ std::vector<TermSpec> OwnTerms(const LevelsOptions& options) {
   const LossSpec tukey = {LossType::kTukey, 1.0};
   return {{"rotation", {"rotation", options.rotation_weight, {}, {}}, {}},
           {"regularization", {"regularization", options.regularization_weight, {}, {}}, {}},
-          {"node_prior", {"node_prior", options.node_prior_weight, {}, {}}, {}},
+          {"node_prior", {"node_prior", options.node_prior_weight, {}, {}}, places},
           {"point_to_plane", {"point_to_plane", options.plane_weight, tukey, {}}, planes},
           {"feature", {"landmark", feature_weight, tukey, {}}, features},
           {kPosePrior, {"pose_prior", 1.0, {}, spreads}, camera}};
@@ -172,6 +174,7 @@ TermInputs Levels::LevelOneInputs(const FrameObservations& observations,
   if (!previous.empty()) inputs.context.node_previous = &previous;
   inputs.context.has_camera = true;
   inputs.context.camera_prior = observations.camera_prior;
+  inputs.stiffness = observations.node_prior_share;
   // The weight of the data is per PR node and does not depend on the density of points.
   inputs.nodes_per_observation =
       point_relevant_.size() / std::max(1.0, static_cast<double>(seen.num_planes()));
