@@ -181,11 +181,11 @@ INSTANTIATE_TEST_SUITE_P(FitTraps, OneSide, ::testing::Values("kidney_partial", 
 
 // Both sides of a flat tube are one up to rounding, and a frame decides which points are one.
 TEST(FitTraps, TheWarpOfABodyThatIsFlatUpToRoundingDoesWhatTheFitDid) {
-  PointCloud source = Tube(16, 12);
-  PointCloud target = Tube(16, 12);
-  for (Eigen::Vector3d& p : source.points) p.x() *= 5e-14;
+  PointCloud source = Tube(24, 15);
+  PointCloud target = Tube(24, 15);
+  for (Eigen::Vector3d& p : source.points) p.x() *= 3e-12;
   for (Eigen::Vector3d& p : target.points) {
-    p = Eigen::Vector3d(5e-14 * p.x() + 0.02 * std::sin(20.0 * p.z()), p.y(), 1.05 * p.z());
+    p = Eigen::Vector3d(3e-12 * p.x() + 0.02 * std::sin(20.0 * p.z()), p.y(), 1.05 * p.z());
   }
   const FitResult result = FitTo(source, target);
   PointCloud applied = source;
