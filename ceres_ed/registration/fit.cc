@@ -336,8 +336,17 @@ StatusOr<std::unique_ptr<SurfaceFitter>> SurfaceFitter::Create(PointCloud source
 StatusOr<FitResult> SurfaceFitter::Fit(const PointCloud& target,
                                        const std::vector<Landmark>& landmarks,
                                        const std::vector<int>& fixed_points) const {
+  return FitWith(options_, target, landmarks, fixed_points);
+}
+
+StatusOr<FitResult> SurfaceFitter::FitWith(const FitOptions& options,
+                                           const PointCloud& target,
+                                           const std::vector<Landmark>& landmarks,
+                                           const std::vector<int>& fixed_points) const {
   const FitInput input = {source_, target, landmarks, fixed_points};
-  return FitInOrder(input, options_, registry_, prepared_.get());
+  // What is prepared has the order of the points that the options of Create() ask for.
+  const bool has_order = IsSorted(source_, options) == IsSorted(source_, options_);
+  return FitInOrder(input, options, registry_, has_order ? prepared_.get() : nullptr);
 }
 
 }  // namespace ceres_ed

@@ -49,6 +49,12 @@ class SurfaceFitter {
                           const std::vector<Landmark>& landmarks = {},
                           const std::vector<int>& fixed_points = {}) const;
 
+  // Does the same with other options than those of Create(). It is an error if one is invalid.
+  StatusOr<FitResult> FitWith(const FitOptions& options,
+                              const PointCloud& target,
+                              const std::vector<Landmark>& landmarks = {},
+                              const std::vector<int>& fixed_points = {}) const;
+
  private:
   SurfaceFitter(PointCloud source, const FitOptions& options, const EnergyRegistry& registry);
 

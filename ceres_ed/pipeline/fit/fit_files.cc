@@ -205,16 +205,29 @@ Status WriteCovariances(const std::string& path, const FitFiles& files, const Fi
 
 }  // namespace
 
+StatusOr<FitSource> LoadFitSource(const FitSettings& settings) {
+  StatusOr<LoadedCloud> loaded = LoadInput(settings.source, settings.repair);
+  if (!loaded.ok()) return loaded.status();
+  const CloudFile file = Describe(settings.source, *loaded);
+  return FitSource{file, *std::move(loaded)};
+}
+
 StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
                                 const std::function<bool()>& should_stop) {
-  FitFiles files;
-  StatusOr<LoadedCloud> source = LoadInput(settings.source, settings.repair);
+  StatusOr<FitSource> source = LoadFitSource(settings);
   if (!source.ok()) return source.status();
-  files.source = Describe(settings.source, *source);
-  files.input.source = std::move(source->cloud);
-  files.source_document = std::move(source->document);
-  files.vertex_of_point = std::move(source->vertex_of_point);
-  Append(source->warnings, &files.warnings);
+  return LoadFitFiles(settings, *std::move(source), should_stop);
+}
+
+StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
+                                FitSource source,
+                                const std::function<bool()>& should_stop) {
+  FitFiles files;
+  files.source = source.file;
+  files.input.source = std::move(source.loaded.cloud);
+  files.source_document = std::move(source.loaded.document);
+  files.vertex_of_point = std::move(source.loaded.vertex_of_point);
+  Append(source.loaded.warnings, &files.warnings);
   PlyDocument target_document;
   if (!settings.target.empty()) {
     StatusOr<LoadedCloud> target = LoadInput(settings.target, settings.repair);

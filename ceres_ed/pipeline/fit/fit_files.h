@@ -46,9 +46,23 @@ struct FitFiles {
   std::vector<Finding> checks;
 };
 
+// The source of a fit as it was read. Fits of one source to many targets share it.
+struct FitSource {
+  CloudFile file;
+  LoadedCloud loaded;
+};
+
+// Reads settings.source; mends it if settings.repair. The error names the file.
+StatusOr<FitSource> LoadFitSource(const FitSettings& settings);
+
 // Returns the inputs. Errors name the file, the place, the value and what was expected. Files are
 // always read to their end; if `should_stop` returns true, the checks that are left are not made.
 StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
+                                const std::function<bool()>& should_stop);
+
+// Does the same with a source that has been read.
+StatusOr<FitFiles> LoadFitFiles(const FitSettings& settings,
+                                FitSource source,
                                 const std::function<bool()>& should_stop);
 
 // Returns ok if every output can be written. This is checked before the long computation. Creates

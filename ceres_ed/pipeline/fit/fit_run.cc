@@ -6,7 +6,6 @@
 #include <ceres_ed/pipeline/fit/fit_verdict.h>
 #include <ceres_ed/pipeline/fit/scale_setting.h>
 #include <ceres_ed/pipeline/report.h>
-#include <ceres_ed/registration/fit.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,11 +14,8 @@
 namespace ceres_ed {
 namespace {
 
-StatusOr<FitResult> FitWithProgress(const FitInput& input,
-                                    FitOptions options,
-                                    double seconds_gone,
-                                    const EnergyRegistry& registry,
-                                    RunObserver* observer) {
+// Returns `options` as a run needs them: with its progress, its end, and the time that is left.
+FitOptions ObservedOptions(FitOptions options, double seconds_gone, RunObserver* observer) {
   options.time_limit_s = std::max(1e-3, options.time_limit_s - seconds_gone);
   options.should_stop = [observer] { return observer->ShouldStop(); };
   options.on_progress = [observer](const FitProgress& progress) {
@@ -29,7 +25,7 @@ StatusOr<FitResult> FitWithProgress(const FitInput& input,
                          kSteps,
                          progress.stage + (progress.stage == "fit" ? inliers : ""));
   };
-  return Fit(input, options, registry);
+  return options;
 }
 
 bool Fails(Grade grade, FailIf fail_if) {
@@ -75,6 +71,63 @@ Outcome Conclude(FitRun run, const Timer& clock, FitObserver* observer) {
         Status::Error(settings.output + ": the verdict is " + run.verdict.Sentence()));
   }
   return Outcome::Done();
+}
+
+// Returns an error if the inputs do not fit together.
+Status CheckFitSettings(const FitSettings& settings) {
+  if (settings.source_landmarks.empty() != settings.target_landmarks.empty()) {
+    return Status::Error(
+        "--source_landmarks and --target_landmarks belong together: one is given, "
+        "expected both or none");
+  }
+  const bool has_named =
+      !settings.source_landmarks.empty() && settings.landmark_use == LandmarkUse::kFit;
+  if (settings.target.empty() && settings.landmarks.empty() && !has_named) {
+    return Status::Error("no TARGET and no --landmarks, expected one of them or both");
+  }
+  return Status::Ok();
+}
+
+StatusOr<FitResult> FitFilesWith(const FitFiles& files,
+                                 const FitOptions& options,
+                                 const SharedSource& shared) {
+  const FitInput& input = files.input;
+  if (shared.fitter == nullptr) return Fit(input, options, *shared.registry);
+  return shared.fitter->FitWith(options, input.target, input.landmarks, input.fixed_points);
+}
+
+// Reads, fits and writes. Without a source in `shared`, the source is read, too.
+Outcome FitAndConclude(const FitSettings& settings,
+                       const SharedSource& shared,
+                       const Timer& clock,
+                       FitObserver* observer) {
+  const auto should_stop = [&] {
+    return observer->ShouldStop() || clock.Seconds() >= settings.options.time_limit_s;
+  };
+  StatusOr<FitFiles> files = shared.source == nullptr
+                                 ? LoadFitFiles(settings, should_stop)
+                                 : LoadFitFiles(settings, *shared.source, should_stop);
+  if (!files.ok()) return Outcome::BadInput(files.status());
+  FitOptions options = settings.options;
+  if (!settings.scale.empty()) {
+    const StatusOr<ScaleSetting> scale = ParseScale(settings.scale);
+    if (!scale.ok()) return Outcome::Usage(scale.status().message());
+    const std::string note =
+        ApplyScale(*scale, files->source.diagonal, files->target.diagonal, &options);
+    if (!note.empty()) files->warnings.push_back(note);
+  }
+  options.record_rounds = !settings.report.empty() || !settings.html.empty();
+  const double load_s = clock.Seconds();
+  const StatusOr<FitResult> result =
+      FitFilesWith(*files, ObservedOptions(options, load_s, observer), shared);
+  if (!result.ok()) {
+    const std::string inputs =
+        settings.source + (settings.target.empty() ? "" : ", " + settings.target);
+    return Outcome::BadInput(Status::Error(inputs + ": " + result.status().message()));
+  }
+  FitRun run{&settings, &*files, &*result, shared.registry, load_s};
+  run.initial_scale = options.rigid.initial_scale;
+  return Conclude(std::move(run), clock, observer);
 }
 
 }  // namespace
@@ -131,15 +184,8 @@ int NumPointRelevant(const FitResult& result) {
 }
 
 Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* observer) {
-  if (settings.source_landmarks.empty() != settings.target_landmarks.empty()) {
-    return Outcome::Usage(
-        "--source_landmarks and --target_landmarks belong together: one is given, "
-        "expected both or none");
-  }
-  const bool has_named =
-      !settings.source_landmarks.empty() && settings.landmark_use == LandmarkUse::kFit;
-  if (settings.target.empty() && settings.landmarks.empty() && !has_named) {
-    return Outcome::Usage("no TARGET and no --landmarks, expected one of them or both");
+  if (Status status = CheckFitSettings(settings); !status.ok()) {
+    return Outcome::Usage(status.message());
   }
   // Check the arguments and the outputs before the computation.
   EnergyRegistry registry;
@@ -147,33 +193,25 @@ Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* obs
   if (!energies.done()) return energies;
   const Status status = PrepareOutputs(settings);
   if (!status.ok()) return Outcome::BadInput(status);
-
-  const StatusOr<ScaleSetting> scale = ParseScale(settings.scale);
-  if (!scale.ok()) return Outcome::Usage(scale.status().message());
-
-  // Read and fit.
-  StatusOr<FitFiles> files = LoadFitFiles(settings, [&] {
-    return observer->ShouldStop() || clock.Seconds() >= settings.options.time_limit_s;
-  });
-  if (!files.ok()) return Outcome::BadInput(files.status());
-  FitOptions options = settings.options;
-  if (!settings.scale.empty()) {
-    const std::string note =
-        ApplyScale(*scale, files->source.diagonal, files->target.diagonal, &options);
-    if (!note.empty()) files->warnings.push_back(note);
+  if (const auto scale = ParseScale(settings.scale); !scale.ok()) {
+    return Outcome::Usage(scale.status().message());
   }
-  options.record_rounds = !settings.report.empty() || !settings.html.empty();
-  const double load_s = clock.Seconds();
-  const StatusOr<FitResult> result =
-      FitWithProgress(files->input, options, load_s, registry, observer);
-  if (!result.ok()) {
-    const std::string inputs =
-        settings.source + (settings.target.empty() ? "" : ", " + settings.target);
-    return Outcome::BadInput(Status::Error(inputs + ": " + result.status().message()));
+  return FitAndConclude(settings, {&registry, nullptr, nullptr}, clock, observer);
+}
+
+Outcome RunFit(const FitSettings& settings,
+               const SharedSource& shared,
+               const Timer& clock,
+               FitObserver* observer) {
+  if (Status status = CheckFitSettings(settings); !status.ok()) {
+    return Outcome::Usage(status.message());
   }
-  FitRun run{&settings, &*files, &*result, &registry, load_s};
-  run.initial_scale = options.rigid.initial_scale;
-  return Conclude(std::move(run), clock, observer);
+  const Status status = PrepareOutputs(settings);
+  if (!status.ok()) return Outcome::BadInput(status);
+  if (const auto scale = ParseScale(settings.scale); !scale.ok()) {
+    return Outcome::Usage(scale.status().message());
+  }
+  return FitAndConclude(settings, shared, clock, observer);
 }
 
 }  // namespace ceres_ed

@@ -8,7 +8,7 @@
 #include <ceres_ed/pipeline/outcome.h>
 #include <ceres_ed/pipeline/run_observer.h>
 #include <ceres_ed/pipeline/verdict.h>
-#include <ceres_ed/registration/fit_types.h>
+#include <ceres_ed/registration/fit.h>
 #include <ceres_ed/util/timer.h>
 
 #include <cstddef>
@@ -75,6 +75,21 @@ class FitObserver : public RunObserver {
 // Fits the files and returns how the run ended. `clock` must have been started with the program:
 // the time limit and the reported times are counted from there.
 Outcome RunFit(const FitSettings& settings, const Timer& clock, FitObserver* observer);
+
+// What fits of one source to many targets share. The fitter is one of the source, and may be null:
+// then each fit prepares the source itself, and what it finds is the same.
+struct SharedSource {
+  const EnergyRegistry* registry = nullptr;
+  const FitSource* source = nullptr;
+  const SurfaceFitter* fitter = nullptr;
+};
+
+// Does the same with a source that has been read, and energies that have been loaded, before. May
+// be called from several threads at once.
+Outcome RunFit(const FitSettings& settings,
+               const SharedSource& shared,
+               const Timer& clock,
+               FitObserver* observer);
 
 }  // namespace ceres_ed
 
