@@ -9,6 +9,8 @@ namespace ceres_ed {
 // The style sheet, and the scripts of the view.
 std::string_view ReportCss();
 std::string_view ReportJs();
+// The script of the page of a cohort.
+std::string_view CohortJs();
 
 // three.js and its OrbitControls; empty if libjs-three was not there when the library was built.
 std::string_view ThreeJs();

@@ -9,10 +9,11 @@
 namespace ceres_ed {
 namespace {
 
-// Nothing may be fetched, whatever a text says.
+// Nothing may be fetched, whatever a text says, but pictures where the page allows them.
 constexpr char kPolicy[] =
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; "
-    "base-uri 'none'; form-action 'none'";
+    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; base-uri 'none'; "
+    "form-action 'none'; img-src data:";
+constexpr char kFilesBeside[] = " 'self' file:";
 
 std::string Cell(const std::string& text, bool is_number, bool is_head) {
   const std::string tag = is_head ? "th" : "td";
@@ -98,7 +99,7 @@ std::string HtmlPage::Finish() const {
   std::string html =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta http-equiv=\"Content-Security-Policy\" content=\"" +
-      std::string(kPolicy) +
+      std::string(kPolicy) + (has_files_beside_ ? kFilesBeside : "") +
       "\">\n<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
       "<meta name=\"generator\" content=\"ceres_ed " +
       kVersion + "\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<title>" +

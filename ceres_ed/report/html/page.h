@@ -41,6 +41,8 @@ class HtmlPage {
   void Code(const std::string& text);
   // A plot with words below it; nothing if `svg_html` is empty.
   void Plot(const std::string& svg_html, const std::string& words);
+  // Lets the page show pictures that lie beside it. Otherwise it fetches nothing.
+  void AllowFilesBeside() { has_files_beside_ = true; }
   // Parts that are HTML already.
   void Html(const std::string& html) { body_ += html; }
   // Data for the scripts of the page, under an id of letters.
@@ -55,6 +57,7 @@ class HtmlPage {
   std::string body_;
   std::string data_;
   int sections_ = 0;
+  bool has_files_beside_ = false;
 };
 
 }  // namespace ceres_ed
