@@ -1,17 +1,17 @@
 #include "apps/cohort_text.h"
 
-#include <ceres_ed/util/options.h>
-
 #include <cstdio>
 
 namespace ceres_ed {
 namespace {
 
-std::string ShareText(double share) {
+std::string ShortText(double number) {
   char text[32];
-  std::snprintf(text, sizeof(text), "%.3g %%", 100.0 * share);
+  std::snprintf(text, sizeof(text), "%.3g", number);
   return text;
 }
+
+std::string ShareText(double share) { return ShortText(100.0 * share) + " %"; }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ std::string CohortSummary(const CollectedMembers& all, const ShapeStatistics& st
   }
   if (report.contains("groups")) {
     text += "groups     least corrected p " +
-            NumberText(report["groups"]["least_p_corrected"].get<double>()) + "\n";
+            ShortText(report["groups"]["least_p_corrected"].get<double>()) + "\n";
   }
   for (const auto& round : report["rounds"]) {
     text += "round      " + std::to_string(round["round"].get<int>()) + ": the mean is " +

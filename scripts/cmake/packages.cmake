@@ -76,8 +76,8 @@ if(CERES_ED_BUILD_APPS)
   ceres_ed_add_package(
     tools ceres-ed-tools science "${ceres_ed_same_version}" "embedded deformation graphs: programs"
     "${ceres_ed_text}\n
-This package has ed_fit, ed_check, ed_apply, ed_slam, ed_depth, ed_simulate,
-ed_eval, ed_report and ed_list_energies, sample data, and ceres_ed_demo, which shows them.")
+This package has ed_fit, ed_check, ed_apply, ed_cohort, ed_slam, ed_depth,
+ed_simulate, ed_eval, ed_report and ed_list_energies, sample data, and ceres_ed_demo, which shows them.")
 endif()
 if(CERES_ED_BUILD_PYTHON)
   # The module is built for one minor version of Python.

@@ -15,7 +15,7 @@ from conftest import ROOT
 
 PACKAGE = ROOT / "ceres_ed/python"
 BUILD = Path(os.environ.get("CERES_ED_BUILD_DIR", ROOT / "build/release")).resolve()
-PROGRAMS = ["ed_apply", "ed_check", "ed_depth", "ed_eval", "ed_fit", "ed_list_energies",
+PROGRAMS = ["ed_apply", "ed_check", "ed_cohort", "ed_depth", "ed_eval", "ed_fit", "ed_list_energies",
             "ed_report", "ed_simulate", "ed_slam"]
 
 pytestmark = pytest.mark.skipif(

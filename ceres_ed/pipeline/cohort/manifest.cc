@@ -157,7 +157,7 @@ Status ReadFolder(const std::string& path, bool with_landmarks, Manifest* manife
   std::vector<fs::path> entries;
   for (auto entry = fs::directory_iterator(path, error); !error && entry != fs::end(entry);
        entry.increment(error)) {
-    entries.push_back(entry->path());
+    if (entry->path().filename().string()[0] != '.') entries.push_back(entry->path());
   }
   if (error) return Status::Error(path + ": cannot read: " + error.message());
   std::sort(entries.begin(), entries.end());

@@ -52,7 +52,8 @@ struct Manifest {
 //     `group` as far as they are given; for pairs `source` and `target` in the place of `path`, and
 //     `source_landmarks`, `target_landmarks`. Paths are seen from the folder of the table. A member
 //     without a name has that of its file, without the ending;
-//   - a folder of shapes: every file of it with the ending of a mesh, sorted by name. A file of
+//   - a folder of shapes: every file of it with the ending of a mesh, sorted by name, but for
+//     hidden ones. A file of
 //     landmarks with the same name (NAME.mrk.json, NAME.fcsv, NAME.landmarks.csv, NAME.pts) belongs
 //     to the shape if `with_landmarks`;
 //   - a folder of folders, for sequences.
