@@ -19,6 +19,7 @@ void BindFit(pybind11::module_& module);
 void BindFitter(pybind11::module_& module);
 void BindEvaluate(pybind11::module_& module);
 void BindSequence(pybind11::module_& module);
+void BindShapeStatistics(pybind11::module_& module);
 void BindFitReport(pybind11::module_& module);
 void BindTrackerOptions(pybind11::module_& module);
 void BindTracker(pybind11::module_& module);

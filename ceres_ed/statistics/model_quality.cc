@@ -14,6 +14,7 @@ namespace {
 std::vector<int> EvenlyChosen(int count, int most) {
   std::vector<int> chosen;
   const int number = std::min(count, most);
+  chosen.reserve(number);
   for (int i = 0; i < number; ++i) {
     chosen.push_back(static_cast<int>(static_cast<long>(i) * count / number));
   }

@@ -87,8 +87,12 @@ def public(names):
     return {name for name in names if not name.startswith("_")}
 
 
+# What is written in Python has its types there.
+IN_PYTHON = {"Cohort", "fit_cohort"}
+
+
 def test_the_package_exports_all_of_the_module():
-    assert public(ceres_ed.__all__) == public(vars(_core))
+    assert public(ceres_ed.__all__) == public(vars(_core)) | IN_PYTHON
     assert all(hasattr(ceres_ed, name) for name in ceres_ed.__all__)
 
 

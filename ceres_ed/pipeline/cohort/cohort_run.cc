@@ -121,6 +121,7 @@ Outcome MemberRuns::Run(const std::vector<CohortMember>& members) {
   });
   total_ = static_cast<int>(mine.size());
   std::vector<std::size_t> needs;
+  needs.reserve(mine.size());
   for (const CohortMember* member : mine) needs.push_back(EstimateMemory(context_, *member));
   JobPoolOptions options;
   options.threads = settings.jobs > 0

@@ -72,6 +72,7 @@ StatusOr<std::vector<const Column*>> ReadHeader(const CsvRow& row,
                                                 std::size_t num_required,
                                                 std::vector<std::string>* notes) {
   std::vector<std::string> names;
+  names.reserve(columns.size());
   for (const Column& column : columns) names.emplace_back(column.name);
   std::vector<const Column*> found;
   for (const std::string& field : row.fields) {

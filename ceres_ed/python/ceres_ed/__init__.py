@@ -13,17 +13,20 @@ A surface is an (N, 3) array of points, a pair (points, triangles), a Cloud, a F
 cloud of trimesh or Open3D, or the path of a file.
 """
 from . import _meshes, _notebook
+from ._cohort import Cohort, fit_cohort
 from ._core import (
     Camera, Cloud, DistanceStatistics, Energy, EnergyInfo, EnergyParameter, Evaluation, Field,
     FieldOptions, Finding, FitOptions, FitProgress, FitResult, Frame, FrameIterator, FrameReport,
-    FrameSequence, Graph, GraphOptions, Landmarks, MapSnapshot, PointEnergy, SequenceOptions, ShapeChange, SurfaceFitter, Tracker, TrackerOptions,
-    Verdict, Warp, __version__, backend, evaluate, evaluate_sequence, list_energies, load, save)
+    FrameSequence, Graph, GraphOptions, Landmarks, MapSnapshot, PointEnergy, SequenceOptions, ShapeChange, ShapeModel,
+    SurfaceFitter, Tracker, TrackerOptions, Verdict, Warp, __version__, align_shapes, backend, compare_groups,
+    evaluate, evaluate_sequence, fit_shape_model, list_energies, load, measure_shape_model, save)
 from ._signatures import fit, open_sequence
 
 __all__ = [
-    "Camera", "Cloud", "DistanceStatistics", "Energy", "EnergyInfo", "EnergyParameter",
+    "Camera", "Cloud", "Cohort", "DistanceStatistics", "Energy", "EnergyInfo", "EnergyParameter",
     "Evaluation", "Field", "FieldOptions", "Finding", "FitOptions", "FitProgress", "FitResult",
     "Frame", "FrameIterator", "FrameReport", "FrameSequence", "Graph", "GraphOptions", "Landmarks",
     "MapSnapshot", "PointEnergy", "SequenceOptions",
-    "ShapeChange", "SurfaceFitter", "Tracker", "TrackerOptions", "Verdict", "Warp", "__version__", "backend",
-    "evaluate", "evaluate_sequence", "fit", "list_energies", "load", "open_sequence", "save"]
+    "ShapeChange", "ShapeModel", "SurfaceFitter", "Tracker", "TrackerOptions", "Verdict", "Warp", "__version__",
+    "align_shapes", "backend", "compare_groups", "evaluate", "evaluate_sequence", "fit", "fit_cohort",
+    "fit_shape_model", "list_energies", "load", "measure_shape_model", "open_sequence", "save"]
