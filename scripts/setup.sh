@@ -56,6 +56,8 @@ add_list() {
       add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy \
         python3-build python3-pip python3-setuptools python3-venv python3-wheel chromium chromium-driver \
         python3-selenium
+      # Engines on which cohorts are run.
+      add parallel snakemake
       ;;
     lint) add clang-format clang-tidy ;;
     fuzz) add clang libclang-rt-14-dev ;;
