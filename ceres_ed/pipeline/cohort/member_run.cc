@@ -6,12 +6,14 @@
 #include <ceres_ed/pipeline/cohort/member_folder.h>
 #include <ceres_ed/pipeline/cohort/member_sequence.h>
 #include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/util/text.h>
 #include <ceres_ed/util/timer.h>
 #include <ceres_ed/version.h>
 
 #include <exception>
 #include <filesystem>
 #include <new>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -87,6 +89,9 @@ std::string SharedKey(const CohortSettings& settings, CohortKind kind) {
        {&settings.source, &settings.fit.source_landmarks, &settings.fit.fixed}) {
     key.AddText(file->empty() ? "none" : "file");
     if (!file->empty()) key.AddFile(*file);
+  }
+  for (const std::string_view plugin : SplitFields(settings.fit.plugin, ';')) {
+    if (!Trim(plugin).empty()) key.AddFile(std::string(Trim(plugin)));
   }
   key.AddText(settings.unit);
   return key.Text();
