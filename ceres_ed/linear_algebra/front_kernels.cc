@@ -11,23 +11,27 @@
 namespace ceres_ed {
 namespace {
 
-// A SIMD vector of kLanes doubles, which can be loaded from and stored to the address of any
-// double.
+// A SIMD vector of kLanes doubles.
 template <int kLanes>
 struct Vector {
-  typedef double Type __attribute__((vector_size(kLanes * sizeof(double)), aligned(8), may_alias));
+  typedef double Type __attribute__((vector_size(kLanes * sizeof(double)), may_alias));
+  // The same at the address of any double. It is a packed struct, because clang forgets the
+  // alignment that is given to the type itself, and then moves it with instructions that fault.
+  struct __attribute__((packed, may_alias)) Anywhere {
+    Type value;
+  };
 };
 
 #define CERES_ED_INLINE [[gnu::always_inline]] inline
 
 template <int kLanes>
-CERES_ED_INLINE typename Vector<kLanes>::Type& At(double* address) {
-  return *reinterpret_cast<typename Vector<kLanes>::Type*>(address);
+CERES_ED_INLINE typename Vector<kLanes>::Anywhere& At(double* address) {
+  return *reinterpret_cast<typename Vector<kLanes>::Anywhere*>(address);
 }
 
 template <int kLanes>
-CERES_ED_INLINE const typename Vector<kLanes>::Type& At(const double* address) {
-  return *reinterpret_cast<const typename Vector<kLanes>::Type*>(address);
+CERES_ED_INLINE const typename Vector<kLanes>::Anywhere& At(const double* address) {
+  return *reinterpret_cast<const typename Vector<kLanes>::Anywhere*>(address);
 }
 
 // Computes C = [C] + sign A B^T for a tile C of kVectors * kLanes rows and `columns` <= kColumns
@@ -48,7 +52,7 @@ CERES_ED_INLINE void MultiplyTile(int depth,
 #pragma GCC unroll 8
     for (int c = 0; c < kColumns; ++c) {
 #pragma GCC unroll 4
-      for (int v = 0; v < kVectors; ++v) sums[c][v] += At<kLanes>(a + v * kLanes) * b[c];
+      for (int v = 0; v < kVectors; ++v) sums[c][v] += At<kLanes>(a + v * kLanes).value * b[c];
     }
   }
 #pragma GCC unroll 8
@@ -58,9 +62,9 @@ CERES_ED_INLINE void MultiplyTile(int depth,
 #pragma GCC unroll 4
     for (int v = 0; v < kVectors; ++v) {
       if (kOverwrite) {
-        At<kLanes>(out + v * kLanes) = sign * sums[c][v];
+        At<kLanes>(out + v * kLanes).value = sign * sums[c][v];
       } else {
-        At<kLanes>(out + v * kLanes) += sign * sums[c][v];
+        At<kLanes>(out + v * kLanes).value += sign * sums[c][v];
       }
     }
   }
@@ -124,15 +128,15 @@ CERES_ED_INLINE void SolveTile(
     double* out = rows + static_cast<std::ptrdiff_t>(c) * stride;
     V x[kVectors];
 #pragma GCC unroll 4
-    for (int v = 0; v < kVectors; ++v) x[v] = At<kLanes>(out + v * kLanes);
+    for (int v = 0; v < kVectors; ++v) x[v] = At<kLanes>(out + v * kLanes).value;
     for (int p = 0; p < c; ++p) {
       const double factor = block[static_cast<std::ptrdiff_t>(p) * stride + c];
       const double* before = rows + static_cast<std::ptrdiff_t>(p) * stride;
 #pragma GCC unroll 4
-      for (int v = 0; v < kVectors; ++v) x[v] -= At<kLanes>(before + v * kLanes) * factor;
+      for (int v = 0; v < kVectors; ++v) x[v] -= At<kLanes>(before + v * kLanes).value * factor;
     }
 #pragma GCC unroll 4
-    for (int v = 0; v < kVectors; ++v) At<kLanes>(out + v * kLanes) = x[v] * inverse[c];
+    for (int v = 0; v < kVectors; ++v) At<kLanes>(out + v * kLanes).value = x[v] * inverse[c];
   }
 }
 
@@ -205,10 +209,10 @@ template <int kLanes, int kColumns>
 CERES_ED_INLINE void ProductOfColumns(
     int rows, const double* L, int stride, const double* y, double* x) {
   for (int row = 0; row < rows; row += kLanes) {
-    typename Vector<kLanes>::Type sum = At<kLanes>(x + row);
+    typename Vector<kLanes>::Type sum = At<kLanes>(x + row).value;
 #pragma GCC unroll 4
-    for (int c = 0; c < kColumns; ++c) sum -= At<kLanes>(L + c * stride + row) * y[c];
-    At<kLanes>(x + row) = sum;
+    for (int c = 0; c < kColumns; ++c) sum -= At<kLanes>(L + c * stride + row).value * y[c];
+    At<kLanes>(x + row).value = sum;
   }
 }
 
@@ -231,9 +235,9 @@ CERES_ED_INLINE void TransposedProductOfColumns(
     int rows, const double* L, int stride, const double* x, double* y) {
   typename Vector<kLanes>::Type sums[kColumns] = {};
   for (int row = 0; row < rows; row += kLanes) {
-    const typename Vector<kLanes>::Type factor = At<kLanes>(x + row);
+    const typename Vector<kLanes>::Type factor = At<kLanes>(x + row).value;
 #pragma GCC unroll 4
-    for (int c = 0; c < kColumns; ++c) sums[c] += At<kLanes>(L + c * stride + row) * factor;
+    for (int c = 0; c < kColumns; ++c) sums[c] += At<kLanes>(L + c * stride + row).value * factor;
   }
   for (int c = 0; c < kColumns; ++c) {
     for (int i = 0; i < kLanes; ++i) y[c] -= sums[c][i];
