@@ -107,6 +107,7 @@ std::vector<int> Numbers(const std::vector<std::string>& labels) {
   std::sort(sorted.begin(), sorted.end());
   sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
   std::vector<int> numbers;
+  numbers.reserve(labels.size());
   for (const std::string& label : labels) {
     numbers.push_back(
         static_cast<int>(std::lower_bound(sorted.begin(), sorted.end(), label) - sorted.begin()));
@@ -136,9 +137,7 @@ py::dict ComparePython(const py::object& shapes,
   return report;
 }
 
-}  // namespace
-
-void BindShapeStatistics(py::module_& module) {
+void BindShapeModel(py::module_& module) {
   using M = ShapeModel;
   py::class_<M>(module,
                 "ShapeModel",
@@ -179,6 +178,12 @@ void BindShapeStatistics(py::module_& module) {
         return "<ceres_ed.ShapeModel of " + std::to_string(self.scores.rows()) + " shapes, " +
                std::to_string(self.variances.size()) + " components>";
       });
+}
+
+}  // namespace
+
+void BindShapeStatistics(py::module_& module) {
+  BindShapeModel(module);
   module.def("align_shapes",
              &AlignPython,
              py::arg("shapes"),
