@@ -1,7 +1,7 @@
 # Puts files into a library, so that no file is looked up when a program runs.
 
-# ceres_ed_embed(TARGET HEADER [FUNCTION FILE ...]): defines the functions of ceres_ed/report/HEADER, each of which
-# returns the bytes of a file as a std::string_view.
+# ceres_ed_embed(TARGET HEADER [FUNCTION FILES ...]): defines the functions of ceres_ed/report/HEADER, each of which
+# returns the bytes of a file, or of several files, joined by |, one after the other, as a std::string_view.
 function(ceres_ed_embed target header)
   get_filename_component(name ${header} NAME_WE)
   set(source ${CMAKE_CURRENT_BINARY_DIR}/${name}.cc)
@@ -14,15 +14,21 @@ function(ceres_ed_embed target header)
   foreach(i RANGE 0 ${last} 2)
     math(EXPR j "${i} + 1")
     list(GET ARGN ${i} function)
-    list(GET ARGN ${j} file)
-    list(APPEND files ${file})
-    # The hash of the file stands in the code, so that a compiler cache sees that a file has changed.
-    file(SHA256 ${file} hash)
+    list(GET ARGN ${j} parts)
+    string(REPLACE "|" ";" parts "${parts}")
+    set(includes "")
+    foreach(file IN LISTS parts)
+      list(APPEND files ${file})
+      # The hash of the file stands in the code, so that a compiler cache sees that a file has changed.
+      file(SHA256 ${file} hash)
+      string(APPEND code "// ${hash}\n")
+      string(APPEND includes "    \".incbin \\\"${file}\\\"\\n\"\n")
+    endforeach()
     set(symbol ceres_ed_file_${function})
-    string(APPEND code "// ${hash}\n__asm__(\n    \".section .rodata\\n\"\n"
+    string(APPEND code "__asm__(\n    \".section .rodata\\n\"\n"
            "    \".global ${symbol}, ${symbol}_end\\n\"\n"
            "    \".hidden ${symbol}, ${symbol}_end\\n\"\n"
-           "    \"${symbol}:\\n.incbin \\\"${file}\\\"\\n${symbol}_end:\\n.byte 0\\n.previous\\n\");\n"
+           "    \"${symbol}:\\n\"\n${includes}    \"${symbol}_end:\\n.byte 0\\n.previous\\n\");\n"
            "extern \"C\" const char ${symbol}[], ${symbol}_end[];\n\n")
     string(APPEND functions "std::string_view ${function}() {\n"
            "  return {${symbol}, static_cast<std::size_t>(${symbol}_end - ${symbol})};\n}\n\n")

@@ -34,6 +34,16 @@ TEST(FieldRange, ASignedFieldHasZeroInItsMiddle) {
   EXPECT_EQ(range.PartOf(0.0), 0.5);
 }
 
+TEST(FieldRange, ValuesAsideDoNotSetTheColours) {
+  ScalarField field = FieldOf({1.0, 2.0, 50.0, 90.0});
+  field.aside = {0, 0, 1, 1};
+  EXPECT_EQ(RangeOfFields({&field}).high, 2.0);
+  EXPECT_EQ(RangeOfFields({&field}).max, 90.0);
+  EXPECT_NE(AsideNote(field), "");
+  field.aside = {1, 1, 1, 1};
+  EXPECT_EQ(RangeOfFields({&field}).high, 90.0);
+}
+
 TEST(FieldRange, SeveralSurfacesHaveOne) {
   const ScalarField one = FieldOf({0.0, 1.0});
   const ScalarField other = FieldOf({0.0, 5.0});

@@ -114,9 +114,11 @@ std::string HtmlPage::Finish() const {
   // The page is complete before the scripts are read.
   for (const std::string_view script : {ThreeJs(), OrbitControlsJs(), ReportJs()}) {
     if (data_.empty() && script != ReportJs()) continue;
-    html += "<script>\n";
+    // The scripts of the view share their names among each other, but not with others.
+    const bool is_ours = script == ReportJs();
+    html += is_ours ? "<script>\n(function () {\n'use strict';\n" : "<script>\n";
     html += script;
-    html += "\n</script>\n";
+    html += is_ours ? "})();\n</script>\n" : "\n</script>\n";
   }
   return html + "</body>\n</html>\n";
 }

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/geometry/bounding_box.h>
 #include <ceres_ed/report/html/base64.h>
+#include <ceres_ed/report/html/timeline_data.h>
 #include <ceres_ed/report/view/view_camera.h>
 
 #include <algorithm>
@@ -40,6 +41,14 @@ ordered_json NumbersData(const std::vector<Number>& numbers) {
           {"data", Base64OfUint16(std::vector<std::uint16_t>(numbers.begin(), numbers.end()))}};
 }
 
+std::string BytesData(const std::vector<Rgb>& colors) {
+  std::string bytes;
+  for (const Rgb& color : colors) {
+    for (const std::uint8_t part : color) bytes += static_cast<char>(part);
+  }
+  return Base64(bytes);
+}
+
 ordered_json FieldData(const ScalarField& field) {
   const FieldRange& range = field.range;
   return {{"key", field.key},
@@ -50,7 +59,9 @@ ordered_json FieldData(const ScalarField& field) {
           {"high", range.high},
           {"min", range.min},
           {"max", range.max},
-          {"steps", Base64OfUint16(Quantize(field.values, range.min, range.max))}};
+          {"note", AsideNote(field)},
+          {"steps", Base64OfUint16(Quantize(field.values, range.min, range.max))},
+          {"hidden", field.hides_aside ? NumbersData(field.aside) : ordered_json(nullptr)}};
 }
 
 // A node has 16 numbers: position, rotation (w x y z), the upper triangle of the stretch row by
@@ -80,6 +91,15 @@ ordered_json MotionData(const ViewSurface& surface) {
   return data;
 }
 
+ordered_json MomentsData(const PointMoments& moments) {
+  ordered_json data = {{"count", moments.count},
+                       {"first", NumbersData(moments.first)},
+                       {"last", NumbersData(moments.last)},
+                       {"places", nullptr}};
+  if (!moments.places.empty()) data["places"] = PointsData(moments.places);
+  return data;
+}
+
 ordered_json SurfaceData(const ViewSurface& surface) {
   std::vector<int> corners;
   for (const auto& triangle : surface.triangles) {
@@ -90,9 +110,15 @@ ordered_json SurfaceData(const ViewSurface& surface) {
                        {"faces", NumbersData(corners)},
                        {"rows", NumbersData(surface.rows)},
                        {"fields", ordered_json::array()},
-                       {"motion", nullptr}};
+                       {"motion", nullptr},
+                       {"moments", nullptr},
+                       {"colors", nullptr},
+                       {"normals", nullptr}};
   for (const ScalarField& field : surface.fields) data["fields"].push_back(FieldData(field));
   if (surface.motion) data["motion"] = MotionData(surface);
+  if (surface.moments) data["moments"] = MomentsData(*surface.moments);
+  if (!surface.colors.empty()) data["colors"] = BytesData(surface.colors);
+  if (!surface.normals.empty()) data["normals"] = PointsData(surface.normals);
   return data;
 }
 
@@ -105,14 +131,6 @@ ordered_json GraphData(const ViewGraph& graph) {
   return {{"edges", NumbersData(ends)}, {"kinds", NumbersData(kinds)}};
 }
 
-std::string ColorsData(ColorScale scale) {
-  std::string bytes;
-  for (const Rgb& color : ColorTable(scale)) {
-    for (const std::uint8_t part : color) bytes += static_cast<char>(part);
-  }
-  return Base64(bytes);
-}
-
 }  // namespace
 
 ordered_json SceneData(const Scene& scene) {
@@ -123,13 +141,15 @@ ordered_json SceneData(const Scene& scene) {
                        {"camera", {{"from", List(camera.from)}, {"up", List(camera.up)}}},
                        {"field", scene.first_field},
                        {"colors",
-                        {{"magnitude", ColorsData(ColorScale::kMagnitude)},
-                         {"signed", ColorsData(ColorScale::kSigned)},
+                        {{"magnitude", BytesData(ColorTable(ColorScale::kMagnitude))},
+                         {"signed", BytesData(ColorTable(ColorScale::kSigned))},
                          {"unknown", kUnknownColor}}},
                        {"surfaces", ordered_json::array()},
                        {"graph", GraphData(scene.graph)},
                        {"landmarks", ordered_json::array()},
+                       {"timeline", nullptr},
                        {"panels", ordered_json::array()}};
+  if (scene.timeline) data["timeline"] = TimelineData(*scene.timeline);
   for (const ViewSurface& surface : scene.surfaces)
     data["surfaces"].push_back(SurfaceData(surface));
   for (const ViewLandmark& landmark : scene.landmarks) {

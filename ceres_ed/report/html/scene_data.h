@@ -1,4 +1,4 @@
-// A scene as data for the view in a page (assets/report.js).
+// A scene as data for the view in a page (assets/scripts/).
 #ifndef CERES_ED_REPORT_HTML_SCENE_DATA_H_
 #define CERES_ED_REPORT_HTML_SCENE_DATA_H_
 

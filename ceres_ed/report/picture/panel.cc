@@ -7,6 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -18,6 +20,8 @@ constexpr double kAmbient = 0.55;
 constexpr double kDirect = 0.55;
 // Nodes and edges are seen through this share of the distance behind a surface.
 constexpr double kLift = 0.01;
+// The height of the camera's pyramid of vision, as a share of the radius of the scene.
+constexpr double kPyramid = 0.22;
 
 Rgb Shaded(const Eigen::Vector3d& color, double cosine) {
   const double light = kAmbient + kDirect * cosine;
@@ -55,6 +59,8 @@ class PanelPainter {
                   const std::vector<Eigen::Vector3d>& colors);
   void DrawGraph();
   void DrawLandmarks(const std::vector<Eigen::Vector3d>& points);
+  // Draws the way of the camera until now, and its pyramid of vision.
+  void DrawPath();
   // Draws a disc of `radius` pixels that faces the eye, at a point in the frame of the eye.
   void DrawDisc(const Eigen::Vector3d& at, double radius, const Rgb& color, double lift);
   void DrawLine(const Eigen::Vector3d& from,
@@ -77,9 +83,15 @@ std::vector<Eigen::Vector3d> PanelPainter::PointColors() const {
   const ScalarField* const field =
       contents_.field.empty() ? nullptr : surface.Find(contents_.field);
   std::vector<Eigen::Vector3d> colors(surface.points.size(), AsVector(contents_.plain));
+  if (contents_.field == kOwnColors && !surface.colors.empty()) {
+    for (std::size_t i = 0; i < colors.size(); ++i) colors[i] = AsVector(surface.colors[i]);
+  }
   if (field == nullptr) return colors;
   for (std::size_t i = 0; i < colors.size(); ++i) {
-    colors[i] = AsVector(ColorAt(field->scale, field->range.PartOf(field->values[i])));
+    const std::size_t at = surface.IndexOf(*field, static_cast<int>(i), contents_.at);
+    const bool is_hidden = field->hides_aside && !field->aside.empty() && field->aside[at] != 0;
+    colors[i] = AsVector(is_hidden ? kUnknownColor
+                                   : ColorAt(field->scale, field->range.PartOf(field->values[at])));
   }
   return colors;
 }
@@ -112,8 +124,15 @@ void PanelPainter::DrawPoints(const std::vector<Eigen::Vector3d>& points,
       std::clamp(0.5 * picture_.height() / std::sqrt(static_cast<double>(points.size()) + 1.0),
                  1.0,
                  6.0 * Unit());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    DrawDisc(points[i], radius, Shaded(colors[i], 1.0), 0.0);
+  const ViewSurface& surface = *contents_.surface;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!surface.IsThere(static_cast<int>(i), contents_.at)) continue;
+    double cosine = 1.0;
+    if (!surface.normals.empty() && surface.normals[i].norm() > 0.5) {
+      cosine = std::abs(camera_.TurnToEye(surface.normals[i]).dot(points[i].normalized()));
+    }
+    DrawDisc(points[i], radius, Shaded(colors[i], cosine), 0.0);
+  }
 }
 
 void PanelPainter::DrawDisc(const Eigen::Vector3d& at,
@@ -181,6 +200,32 @@ void PanelPainter::DrawLandmarks(const std::vector<Eigen::Vector3d>& points) {
   }
 }
 
+void PanelPainter::DrawPath() {
+  if (contents_.timeline == nullptr || !contents_.surface->moments) return;
+  const Timeline& timeline = *contents_.timeline;
+  const int now = timeline.moments[contents_.surface->moments->MomentAt(contents_.at)];
+  std::optional<Eigen::Vector3d> last;
+  for (int f = 0; f <= now; ++f) {
+    if (!timeline.frames[f].map_from_camera) continue;
+    const Eigen::Vector3d at = camera_.ToEye(timeline.frames[f].map_from_camera->translation);
+    if (last) DrawLine(*last, at, 0.5 * Unit(), kPrColor, kLift);
+    last = at;
+  }
+  if (!timeline.frames[now].map_from_camera) return;
+  // The pyramid of vision.
+  const double size = kPyramid * contents_.scene_radius;
+  std::vector<Eigen::Vector3d> corners;
+  for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) {
+    const Eigen::Vector3d ray = timeline.camera.BackProject(
+        u * (timeline.camera.width - 1), v * (timeline.camera.height - 1), size);
+    corners.push_back(camera_.ToEye(*timeline.frames[now].map_from_camera * ray));
+  }
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    DrawLine(*last, corners[i], 0.5 * Unit(), kLandmarkColor, kLift);
+    DrawLine(corners[i], corners[(i + 1) % corners.size()], 0.5 * Unit(), kLandmarkColor, kLift);
+  }
+}
+
 ColorImage PanelPainter::Draw() {
   std::vector<Eigen::Vector3d> points = PointsAt(*contents_.surface, contents_.at);
   for (Eigen::Vector3d& point : points) point = camera_.ToEye(point);
@@ -192,6 +237,7 @@ ColorImage PanelPainter::Draw() {
   }
   DrawGraph();
   DrawLandmarks(points);
+  DrawPath();
   return std::move(picture_);
 }
 

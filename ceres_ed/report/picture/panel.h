@@ -34,6 +34,10 @@ class PanelCamera {
               int height);
 
   Eigen::Vector3d ToEye(const Eigen::Vector3d& point) const;
+  // Returns a direction of the scene in the frame of the eye.
+  Eigen::Vector3d TurnToEye(const Eigen::Vector3d& direction) const {
+    return eye_from_scene_ * direction;
+  }
   // Returns the places of points on the plane at the distance 1.
   Eigen::AlignedBox2d Extent(const std::vector<Eigen::Vector3d>& points) const;
   const PinholeCamera& pinhole() const { return pinhole_; }
@@ -56,6 +60,9 @@ struct PanelContents {
   // The graph and the landmarks of the surface, or null.
   const ViewGraph* graph = nullptr;
   const std::vector<ViewLandmark>* landmarks = nullptr;
+  // The frames of a sequence, whose camera is drawn, or null; and the radius of the scene.
+  const Timeline* timeline = nullptr;
+  double scene_radius = 1.0;
 };
 
 // Returns the picture of a panel. Its edges are smooth: it is drawn at twice its size.

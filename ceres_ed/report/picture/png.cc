@@ -1,5 +1,7 @@
 #include "ceres_ed/report/picture/png.h"
 
+#include <ceres_ed/report/picture/jpeg.h>
+
 #define STB_IMAGE_WRITE_IMPLEMENTATION
 #define STB_IMAGE_WRITE_STATIC
 #define STBI_WRITE_NO_STDIO
@@ -9,20 +11,40 @@ namespace ceres_ed {
 
 bool HasPictures() { return true; }
 
+namespace {
+
+constexpr int kChannels = 3;
+
+void Append(void* to, void* data, int size) {
+  static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
+}
+
+}  // namespace
+
 std::string EncodePng(const ColorImage& picture) {
   std::string bytes;
   if (picture.empty()) return bytes;
-  const auto append = [](void* to, void* data, int size) {
-    static_cast<std::string*>(to)->append(static_cast<const char*>(data), size);
-  };
-  constexpr int kChannels = 3;
-  stbi_write_png_to_func(append,
+  stbi_write_png_to_func(Append,
                          &bytes,
                          picture.width(),
                          picture.height(),
                          kChannels,
                          picture.pixels().data(),
                          kChannels * picture.width());
+  return bytes;
+}
+
+std::string EncodeJpeg(const ColorImage& picture) {
+  constexpr int kQuality = 80;
+  std::string bytes;
+  if (picture.empty()) return bytes;
+  stbi_write_jpg_to_func(Append,
+                         &bytes,
+                         picture.width(),
+                         picture.height(),
+                         kChannels,
+                         picture.pixels().data(),
+                         kQuality);
   return bytes;
 }
 

@@ -113,8 +113,8 @@ void ScenePainter::DrawLegend(double y) {
   const FieldRange& range = field_->range;
   const std::string low = ShortNumber(range.low);
   const std::string high = ShortNumber(range.high) + (range.max > range.high ? " and more" : "");
-  const std::string name =
-      field_->name + " [" + field_->unit + "], up to " + ShortNumber(range.max);
+  const std::string name = field_->name + " [" + field_->unit + "], up to " +
+                           ShortNumber(range.max) + AsideNote(*field_);
   double x = text_;
   Write(low, x, y + text_, text_, colors_.text);
   x += TextWidth(low, text_) + 0.5 * text_;

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/report/view/seen_points.h>
 
 #include <algorithm>
 #include <array>
@@ -54,6 +55,8 @@ class FitViewBuilder {
   std::vector<Eigen::Vector3d> placed_;
   // The points of the source that are shown.
   std::vector<int> kept_;
+  // 1 for points of the result that the target does not show; empty without a target.
+  std::vector<char> not_shown_;
 };
 
 // Finds the rigidly placed source.
@@ -81,6 +84,7 @@ void FitViewBuilder::Measure() {
     cloud.points = result;
     if (parts_.triangles != nullptr) cloud.triangles = *parts_.triangles;
     distances.from_target = SurfaceDistances(parts_.target->points, cloud);
+    not_shown_ = PointsNotShown(cloud, *parts_.target);
   }
   if (parts_.truth != nullptr) {
     distances.to_truth = Lengths(result, *parts_.truth);
@@ -121,6 +125,13 @@ void FitViewBuilder::AddFields(ViewSurface* source) const {
   const FitDistances& distances = view_.distances;
   AddField("distance", "distance to the other surface", kLength, distances.to_target, source);
   AddField("truth", "distance to the true place", kLength, distances.to_truth, source);
+  // What the target does not show has no distance to it, and its true error, which may be many
+  // times as large, must not make all that is seen look alike.
+  for (ScalarField& field : source->fields) {
+    if (not_shown_.empty()) break;
+    for (const int point : kept_) field.aside.push_back(not_shown_[point]);
+    field.hides_aside = field.key == "distance";
+  }
   if (parts_.source != nullptr) {
     const bool has_faces = parts_.triangles != nullptr && !parts_.triangles->empty();
     if (has_faces) {

@@ -31,14 +31,24 @@ struct ScalarField {
   std::string name;
   std::string unit;
   ColorScale scale = ColorScale::kMagnitude;
-  // One value for each point; NaN where it is unknown.
+  // One value for each point; NaN where it is unknown. On a surface with moments there may be one
+  // for each point and moment, ordered as PointMoments::places.
   std::vector<double> values;
   FieldRange range;
+  // 1 for values that must not set the range of the colours, such as those of a part that the
+  // target does not show; empty if all count.
+  std::vector<char> aside;
+  // Whether values aside are grey; otherwise they have the colours of the others.
+  bool hides_aside = false;
 };
 
+// Returns what a legend says about the values aside, beginning with "; "; empty if there are none.
+std::string AsideNote(const ScalarField& field);
+
 // Returns the range of all finite values in `fields`, none of which is null. The largest 2 % do not
-// stretch the colours: `high` is the 98th percentile, of the absolute values for a signed field,
-// whose range has 0 in its middle. A magnitude begins at 0.
+// stretch the colours: `high` is the 98th percentile of the values that count, of the absolute
+// values for a signed field, whose range has 0 in its middle. A magnitude begins at 0. If no value
+// counts, all do.
 FieldRange RangeOfFields(const std::vector<const ScalarField*>& fields);
 
 }  // namespace ceres_ed

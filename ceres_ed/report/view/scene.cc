@@ -5,10 +5,16 @@
 #include <algorithm>
 #include <cstddef>
 #include <map>
+#include <utility>
 
 namespace ceres_ed {
 
 std::vector<Eigen::Vector3d> PointsAt(const ViewSurface& surface, double at) {
+  if (surface.moments && !surface.moments->places.empty()) {
+    const auto count = static_cast<std::ptrdiff_t>(surface.points.size());
+    const auto begin = surface.moments->places.begin() + count * surface.moments->MomentAt(at);
+    return {begin, begin + count};
+  }
   if (!surface.motion) return surface.points;
   const MotionParts parts = PartsAt(at, PlacementShareOf(surface));
   std::vector<Eigen::Vector3d> moved(surface.points.size());
@@ -29,6 +35,13 @@ SceneBall BallAround(const Scene& scene) {
     const ViewSurface& surface = scene.surfaces[panel.surface];
     if (panel.at < 0.0) shown.push_back(PointsAt(surface, 0.0));
     shown.push_back(PointsAt(surface, panel.at < 0.0 ? 1.0 : panel.at));
+  }
+  if (scene.timeline) {
+    std::vector<Eigen::Vector3d> path;
+    for (const TimelineFrame& frame : scene.timeline->frames) {
+      if (frame.map_from_camera) path.push_back(frame.map_from_camera->translation);
+    }
+    shown.push_back(std::move(path));
   }
   SceneBall ball;
   Eigen::AlignedBox3d box;

@@ -2,8 +2,11 @@
 #ifndef CERES_ED_REPORT_VIEW_SCENE_H_
 #define CERES_ED_REPORT_VIEW_SCENE_H_
 
+#include <ceres_ed/report/view/timeline.h>
+#include <ceres_ed/report/view/view_camera.h>
 #include <ceres_ed/report/view/view_surface.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +44,9 @@ struct ViewLandmark {
   double error = 0.0;
 };
 
+// The choice of colours that shows the own colours of points.
+inline constexpr char kOwnColors[] = "colors";
+
 // A panel shows one surface. All panels of a scene have one camera.
 struct ViewPanel {
   std::string title;
@@ -61,8 +67,13 @@ struct Scene {
   ViewGraph graph;
   std::vector<ViewLandmark> landmarks;
   std::vector<ViewPanel> panels;
-  // The key of the field that is shown first; empty for plain colours.
+  // The key of the field that is shown first; empty for plain colours, and kOwnColors for the own
+  // colours of points.
   std::string first_field;
+  // The frames of a sequence; nothing for other scenes.
+  std::optional<Timeline> timeline;
+  // From where the scene is looked at first; nothing if ChooseCamera() may choose.
+  std::optional<ViewCamera> camera;
   // What the scene does not show, and why, in sentences.
   std::vector<std::string> notes;
 };

@@ -1,5 +1,7 @@
 #include "ceres_ed/report/view/view_camera.h"
 
+#include <ceres_ed/report/view/scene.h>
+
 #include <array>
 #include <cmath>
 
@@ -25,6 +27,7 @@ Eigen::Vector3d MeanNormal(const ViewSurface& surface) {
 }  // namespace
 
 ViewCamera ChooseCamera(const Scene& scene) {
+  if (scene.camera) return *scene.camera;
   constexpr double kOneSided = 0.3;
   constexpr double kSteep = 0.9;
   constexpr double kAside = 50.0 * M_PI / 180.0;

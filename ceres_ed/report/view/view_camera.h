@@ -2,11 +2,11 @@
 #ifndef CERES_ED_REPORT_VIEW_VIEW_CAMERA_H_
 #define CERES_ED_REPORT_VIEW_VIEW_CAMERA_H_
 
-#include <ceres_ed/report/view/scene.h>
-
 #include <Eigen/Core>
 
 namespace ceres_ed {
+
+struct Scene;
 
 // The angle of view of pages and pictures from top to bottom, in degrees.
 inline constexpr double kViewAngleDeg = 30.0;
@@ -17,10 +17,10 @@ struct ViewCamera {
   Eigen::Vector3d up = Eigen::Vector3d::UnitY();
 };
 
-// Returns the camera of a scene. If a surface that stands still, such as a target, shows one side
-// only (its normals have a mean of more than 0.3), this side is seen, turned by 50 degrees so that
-// something of the other side is seen, too. Otherwise the scene is seen from the front, right and
-// above. y is upwards, or z if the eye is on the y axis.
+// Returns the camera of a scene, if it has none of its own. If a surface that stands still, such as
+// a target, shows one side only (its normals have a mean of more than 0.3), this side is seen,
+// turned by 50 degrees so that something of the other side is seen, too. Otherwise the scene is
+// seen from the front, right and above. y is upwards, or z if the eye is on the y axis.
 ViewCamera ChooseCamera(const Scene& scene);
 
 }  // namespace ceres_ed

@@ -13,6 +13,12 @@ const ScalarField* ViewSurface::Find(const std::string& key) const {
   return nullptr;
 }
 
+std::size_t ViewSurface::IndexOf(const ScalarField& field, int point, double at) const {
+  const auto index = static_cast<std::size_t>(point);
+  if (!moments || field.values.size() == points.size()) return index;
+  return static_cast<std::size_t>(moments->MomentAt(at)) * points.size() + index;
+}
+
 ViewSurface MakeViewSurface(const std::string& name,
                             const PointCloud& cloud,
                             const std::vector<int>& rows,

@@ -3,10 +3,12 @@
 #define CERES_ED_REPORT_VIEW_VIEW_SURFACE_H_
 
 #include <ceres_ed/geometry/point_cloud.h>
+#include <ceres_ed/report/view/point_moments.h>
 #include <ceres_ed/report/view/scalar_field.h>
 #include <ceres_ed/report/view/warp_motion.h>
 
 #include <array>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,12 +31,24 @@ struct ViewSurface {
   int all_points = 0;
   int all_triangles = 0;
   std::vector<ScalarField> fields;
-  // How the points move; nothing for a surface that stands still.
+  // The own colour of each point, and its normal (0 where it is not known); empty if they are not
+  // known.
+  std::vector<Rgb> colors;
+  std::vector<Eigen::Vector3d> normals;
+  // How the points move, by a warp or from moment to moment; nothing for a surface that stands
+  // still.
   std::optional<WarpMotion> motion;
+  std::optional<PointMoments> moments;
 
   bool IsDecimated() const { return all_points > static_cast<int>(points.size()); }
   // Returns the field of that key, or null.
   const ScalarField* Find(const std::string& key) const;
+  // Returns whether a point is there at `at` of the way of the surface.
+  bool IsThere(int point, double at) const {
+    return !moments || moments->IsThere(point, moments->MomentAt(at));
+  }
+  // Returns the place of the value of a point in `field`, which may have one for each moment.
+  std::size_t IndexOf(const ScalarField& field, int point, double at) const;
 };
 
 // Returns `cloud` with about `max_points` points, and writes their indices in `cloud` to `kept`.
