@@ -50,10 +50,9 @@ constexpr int kMaxRuns = 32;
 const ProgramInfo kProgram = {
     "ed_report",
     "RUN [RUN ...] [--html=F.html] [--png=F.png]",
-    "Shows finished runs. RUN is a report.json that ed_fit or ed_eval has written, or a folder "
-    "with "
-    "one; the files that it names are shown as far as they are there. Several runs are compared: "
-    "figures, flags that differ, and results seen by one camera.",
+    "Shows finished runs. RUN is a report.json that ed_fit, ed_slam or ed_eval has written, or a "
+    "folder with one; the files that it names are shown as far as they are there. Several runs "
+    "are compared: figures, flags that differ, and results seen by one camera.",
     "ed_report fit.json --html=fit.html --png=fit.png",
     1,
     kMaxRuns};

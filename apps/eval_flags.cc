@@ -30,7 +30,7 @@ const OptionTable<EvalSettings>& EvalRows() {
           .File(),
       Row(&S::result, "result", "Folder that ed_slam wrote for --sequence.").File(),
       Row(&S::report, "report", "JSON to write: all figures.").File(),
-      Row(&S::html, "html", "HTML to write: RESULT.ply and its errors to look at in a browser.")
+      Row(&S::html, "html", "HTML to write: the result and its errors to look at in a browser.")
           .File(),
       Row(&S::png, "png", "PNG to write: the same views as a picture.").File(),
       Row(&S::error_ply,
@@ -74,8 +74,6 @@ StatusOr<EvalSettings> ReadEvalFlags(const std::vector<std::string>& arguments) 
   for (const auto& [name, value] : {std::pair("source", settings.source),
                                     std::pair("truth", settings.truth),
                                     std::pair("error_ply", settings.error_ply),
-                                    std::pair("html", settings.html),
-                                    std::pair("png", settings.png),
                                     std::pair("calibration", settings.calibration)}) {
     if (!value.empty()) {
       return Status::Error("--" + std::string(name) +

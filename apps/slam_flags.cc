@@ -27,6 +27,13 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
           .Letter('o')
           .OnResume(ResumeRule::kFree)
           .File(),
+      Row(&S::html, "html", "HTML to write: the run to look at in a browser.")
+          .OnResume(ResumeRule::kFree)
+          .File(),
+      Row(&S::png, "png", "PNG to write: some frames of it as a picture.")
+          .OnResume(ResumeRule::kFree)
+          .File(),
+      Row(&S::theme, "theme", "The ground of --png.").OnResume(ResumeRule::kFree),
       Row(&S::track,
           "track",
           "PLY to read: points to follow, in metres in the first frame's camera; see tracks.csv.")
@@ -41,8 +48,7 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
       Row(&S::write_masks,
           "write_masks",
           "Write for each frame in masks/ which pixels are tissue (255), and where a tool or "
-          "nothing was seen (0).")
-          .File(),
+          "nothing was seen (0)."),
       Row(&S::checkpoint_every, "checkpoint_every", "Save state, map and report every n frames.")
           .In(AtLeast(0))
           .Special(0, "none")

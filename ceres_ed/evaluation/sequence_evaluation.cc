@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <memory>
 
@@ -71,13 +72,36 @@ Status TruthEvaluator::LocateNewPoints(const LiveSnapshot& snapshot, const TrueS
   return Status::Ok();
 }
 
-StatusOr<FrameTruthError> TruthEvaluator::Evaluate(const LiveSnapshot& snapshot) {
-  if (!truth_.Has(snapshot.frame)) {
-    return Status::Error("the truth has no frame " + std::to_string(snapshot.frame) +
-                         ", expected mesh and pose of every frame of the result");
-  }
+Status TruthEvaluator::CheckFrame(const LiveSnapshot& snapshot) const {
+  if (truth_.Has(snapshot.frame)) return Status::Ok();
+  return Status::Error("the truth has no frame " + std::to_string(snapshot.frame) +
+                       ", expected mesh and pose of every frame of the result");
+}
+
+double TruthEvaluator::TrackingError(const LiveSnapshot& snapshot,
+                                     std::size_t point,
+                                     const TrueSurface& surface) const {
+  const TissuePoint& tissue = births_.at(snapshot.ids[point]).tissue;
+  if (!tissue.known()) return std::numeric_limits<double>::quiet_NaN();
+  return (snapshot.points[point] - surface.PlaceOf(tissue)).norm();
+}
+
+StatusOr<std::vector<double>> TruthEvaluator::TrackingErrors(const LiveSnapshot& snapshot) {
+  Status status = CheckFrame(snapshot);
+  if (!status.ok()) return status;
   const TrueSurface surface(truth_.InCamera(snapshot.frame));
-  Status status = LocateNewPoints(snapshot, surface);
+  status = LocateNewPoints(snapshot, surface);
+  if (!status.ok()) return status;
+  std::vector<double> errors(snapshot.size());
+  for (std::size_t i = 0; i < errors.size(); ++i) errors[i] = TrackingError(snapshot, i, surface);
+  return errors;
+}
+
+StatusOr<FrameTruthError> TruthEvaluator::Evaluate(const LiveSnapshot& snapshot) {
+  Status status = CheckFrame(snapshot);
+  if (!status.ok()) return status;
+  const TrueSurface surface(truth_.InCamera(snapshot.frame));
+  status = LocateNewPoints(snapshot, surface);
   if (!status.ok()) return status;
   VisibilityBuffer buffer(camera_);
   buffer.AddTriangles(surface.mesh());
@@ -92,12 +116,12 @@ StatusOr<FrameTruthError> TruthEvaluator::Evaluate(const LiveSnapshot& snapshot)
     const bool seen = buffer.Sees(point, options_.visibility_tolerance);
     surface_all.push_back(surface.Distance(point));
     if (seen) surface_seen.push_back(surface_all.back());
-    const TissuePoint& tissue = births_.at(snapshot.ids[i]).tissue;
-    if (!tissue.known()) {
+    const double tracking = TrackingError(snapshot, i, surface);
+    if (std::isnan(tracking)) {
       ++error.unknown;
       continue;
     }
-    (seen ? tracking_seen : tracking_hidden).push_back((point - surface.PlaceOf(tissue)).norm());
+    (seen ? tracking_seen : tracking_hidden).push_back(tracking);
   }
   error.seen = static_cast<int>(surface_seen.size());
   error.surface_all = SummarizeAny(surface_all);

@@ -13,6 +13,7 @@
 #include <ceres_ed/io/sequence/scene_truth.h>
 #include <ceres_ed/util/status.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -71,12 +72,22 @@ class TruthEvaluator {
   // lacks, or in a frame other than the one in an earlier snapshot.
   StatusOr<FrameTruthError> Evaluate(const LiveSnapshot& snapshot);
 
+  // Returns for each point of a snapshot the distance to the present position of its tissue point,
+  // in metres, NaN if it has none. Errors are as above.
+  StatusOr<std::vector<double>> TrackingErrors(const LiveSnapshot& snapshot);
+
  private:
   struct Birth {
     int frame = 0;
     TissuePoint tissue;
   };
 
+  // Returns an error unless the truth has the frame of a snapshot.
+  Status CheckFrame(const LiveSnapshot& snapshot) const;
+  // Returns the distance of a point from its tissue point; NaN if it has none.
+  double TrackingError(const LiveSnapshot& snapshot,
+                       std::size_t point,
+                       const TrueSurface& surface) const;
   Status LocateNewPoints(const LiveSnapshot& snapshot, const TrueSurface& surface);
 
   PinholeCamera camera_;

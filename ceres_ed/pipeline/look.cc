@@ -1,6 +1,7 @@
 #include "ceres_ed/pipeline/look.h"
 
 #include <ceres_ed/io/atomic_file.h>
+#include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/report/html/fit_page.h>
 #include <ceres_ed/report/html/report_json.h>
 #include <ceres_ed/report/picture/png.h>
@@ -45,6 +46,22 @@ PictureOptions OptionsOfFit(const nlohmann::ordered_json& report) {
   return options;
 }
 
+// Writes the picture of a scene, and the page that `page_with` returns for the picture that it has
+// in place of the view.
+template <typename PageWith>
+Status WriteBoth(const LookOutputs& outputs,
+                 const Scene& scene,
+                 PictureOptions options,
+                 const PageWith& page_with) {
+  if (!outputs.png.empty()) {
+    options.theme = outputs.theme;
+    Status status = WritePicture(outputs.png, scene, options);
+    if (!status.ok()) return status;
+  }
+  if (outputs.html.empty()) return Status::Ok();
+  return WriteFileAtomically(outputs.html, page_with(PictureOfPage(scene, options)));
+}
+
 }  // namespace
 
 Status CheckLookOutputs(const LookOutputs& outputs) {
@@ -52,18 +69,20 @@ Status CheckLookOutputs(const LookOutputs& outputs) {
   return Status::Error(outputs.png + ": " + kNoPictures);
 }
 
+Status PrepareLook(const LookOutputs& outputs) {
+  Status status = CheckLookOutputs(outputs);
+  for (const std::string& path : {outputs.html, outputs.png}) {
+    if (status.ok() && !path.empty()) status = PrepareOutput(path);
+  }
+  return status;
+}
+
 Status WriteFitLook(const LookOutputs& outputs,
                     const nlohmann::ordered_json& report,
                     const FitView& view) {
-  PictureOptions options = OptionsOfFit(report);
-  if (!outputs.png.empty()) {
-    options.theme = outputs.theme;
-    Status status = WritePicture(outputs.png, view.scene, options);
-    if (!status.ok()) return status;
-  }
-  if (outputs.html.empty()) return Status::Ok();
-  return WriteFileAtomically(outputs.html,
-                             FitPage(report, view, PictureOfPage(view.scene, options)));
+  return WriteBoth(outputs, view.scene, OptionsOfFit(report), [&](const std::string& picture) {
+    return FitPage(report, view, picture);
+  });
 }
 
 std::string FitPng(const nlohmann::ordered_json& report,
@@ -81,14 +100,31 @@ Status WriteComparison(const LookOutputs& outputs, const std::vector<ComparedRun
   const Scene scene = SceneOfRuns(runs);
   PictureOptions options;
   options.title = std::to_string(runs.size()) + " runs compared";
-  if (!outputs.png.empty()) {
-    options.theme = outputs.theme;
-    Status status = WritePicture(outputs.png, scene, options);
-    if (!status.ok()) return status;
-  }
-  if (outputs.html.empty()) return Status::Ok();
-  return WriteFileAtomically(outputs.html,
-                             ComparisonPage(runs, scene, PictureOfPage(scene, options)));
+  return WriteBoth(outputs, scene, options, [&](const std::string& picture) {
+    return ComparisonPage(runs, scene, picture);
+  });
+}
+
+Status WriteSequenceLook(const LookOutputs& outputs,
+                         const nlohmann::ordered_json& report,
+                         const nlohmann::ordered_json& evaluation,
+                         const SequenceView& view) {
+  PictureOptions options;
+  options.title = SequenceTitle(report);
+  options.subtitle = VerdictLine(report);
+  return WriteBoth(outputs, view.scene, options, [&](const std::string& picture) {
+    return SequencePage(report, evaluation, view, picture);
+  });
+}
+
+Status WriteSequenceComparison(const LookOutputs& outputs,
+                               const std::vector<ComparedSequence>& runs) {
+  const Scene scene = SceneOfSequences(runs);
+  PictureOptions options;
+  options.title = std::to_string(runs.size()) + " runs compared";
+  return WriteBoth(outputs, scene, options, [&](const std::string& picture) {
+    return SequenceComparisonPage(runs, scene, picture);
+  });
 }
 
 }  // namespace ceres_ed

@@ -3,6 +3,8 @@
 #define CERES_ED_PIPELINE_LOOK_H_
 
 #include <ceres_ed/report/html/comparison_page.h>
+#include <ceres_ed/report/html/sequence_comparison_page.h>
+#include <ceres_ed/report/html/sequence_page.h>
 #include <ceres_ed/report/picture/theme.h>
 #include <ceres_ed/report/view/fit_view.h>
 #include <ceres_ed/util/status.h>
@@ -19,10 +21,15 @@ struct LookOutputs {
   std::string html;
   std::string png;
   Theme theme = Theme::kLight;
+
+  bool empty() const { return html.empty() && png.empty(); }
 };
 
 // Returns an error if an output is requested that this build can not make.
 Status CheckLookOutputs(const LookOutputs& outputs);
+
+// Does the same, and makes sure that the folders of the outputs are there (PrepareOutput()).
+Status PrepareLook(const LookOutputs& outputs);
 
 // Writes page and picture of a fit, or of the evaluation of one. `report` is what report.json has
 // of it. Each file is written atomically. The error names the path.
@@ -39,6 +46,17 @@ std::string FitPng(const nlohmann::ordered_json& report,
 
 // Writes page and picture of several runs beside each other.
 Status WriteComparison(const LookOutputs& outputs, const std::vector<ComparedRun>& runs);
+
+// Writes page and picture of the tracking of a sequence. `evaluation` is the report of ed_eval on
+// it, or null.
+Status WriteSequenceLook(const LookOutputs& outputs,
+                         const nlohmann::ordered_json& report,
+                         const nlohmann::ordered_json& evaluation,
+                         const SequenceView& view);
+
+// Writes page and picture of the tracking of several sequences, or of one in several ways.
+Status WriteSequenceComparison(const LookOutputs& outputs,
+                               const std::vector<ComparedSequence>& runs);
 
 }  // namespace ceres_ed
 

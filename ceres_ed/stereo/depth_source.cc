@@ -119,6 +119,12 @@ StatusOr<DepthFrame> DepthSource::Load(int i, FrameProblem* problem) const {
   return frame;
 }
 
+ColorImage DepthSource::LoadPicture(int i) const {
+  ColorImage picture = sequence_->LoadPicture(i);
+  if (picture.empty() || !is_stereo()) return picture;
+  return matcher_->Rectify(picture, picture, MaskImage()).left;
+}
+
 StatusOr<std::unique_ptr<DepthSource>> OpenDepthSource(const std::string& directory,
                                                        const SequenceOptions& options,
                                                        const StereoOptions& stereo) {

@@ -50,6 +50,10 @@ class DepthSource {
   // the same bytes in any order and at any number of threads.
   StatusOr<DepthFrame> Load(int i, FrameProblem* problem = nullptr) const;
 
+  // Returns only the colour picture of frame i, of a stereo sequence the rectified left one, with
+  // the size of the camera. It is empty if there is none.
+  ColorImage LoadPicture(int i) const;
+
  private:
   DepthSource() = default;
   Status CheckFirstPair(const std::string& name, bool refuse);

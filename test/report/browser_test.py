@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Opens the pages of fits in Chromium: browser_test.py APPS
+"""Opens the pages of fits and of sequences in Chromium: browser_test.py APPS
 
 Skipped with a line that begins with "SKIPPED: " where there is no Chromium.
 """
@@ -263,6 +263,153 @@ class FinishedRuns(unittest.TestCase):
         flags = [e.text for e in BROWSER.find_elements("css selector", "td:first-child")]
         self.assertIn("--w_reg", flags)
         self.assertNotIn("--w_rot", flags)
+
+
+class SequencePage(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.sequence, cls.result = WORK / "heart", WORK / "tracked"
+        run("ed_simulate", "heart", f"--output={cls.sequence}", "--frames=8", "--quiet")
+        cls.page = WORK / "slam.html"
+        run("ed_slam", cls.sequence, f"--output={cls.result}", f"--html={cls.page}", "--verify_every=4", "--quiet")
+        cls.report = json.loads((cls.result / "report.json").read_text())
+
+    def setUp(self):
+        open_page(self.page)
+        self.assertTrue(ask("return window.ceresEd && ceresEd.ready"))
+
+    def tearDown(self):
+        self.assertEqual(complaints(BROWSER), [])
+        self.assertEqual(ask("return ceresEd.errors"), [])
+
+    def test_the_map_is_drawn(self):
+        share = ask("""
+            const pixels = ceresEd.pixels();
+            let others = 0;
+            for (let i = 0; i < pixels.length; i += 4) {
+              if ([0, 1, 2].some((c) => Math.abs(pixels[i + c] - pixels[c]) > 8)) ++others;
+            }
+            return others / (pixels.length / 4);""")
+        self.assertGreater(share, 0.05)
+        self.assertLess(share, 0.95)
+
+    def test_the_slider_moves_the_map_and_tells_the_frame(self):
+        slider = BROWSER.find_element("id", "frame")
+        end = ask("return ceresEd.places(0)")
+        self.assertIn("Frame 7: tracked", ask("return document.getElementById('frameText').value"))
+        slider.send_keys("\ue011")  # Home.
+        self.assertNotEqual(end, ask("return ceresEd.places(0)"))
+        self.assertIn("Frame 0: initialized", ask("return document.getElementById('frameText').value"))
+        self.assertEqual(slider.get_attribute("aria-valuetext"), "frame 0, initialized")
+        shown = "return ceresEd.panels[0].geometry.index.count"
+        few = ask(shown)
+        slider.send_keys("\ue010")  # End.
+        self.assertGreater(ask(shown), few)
+
+    def test_points_are_where_the_live_clouds_have_them(self):
+        sys.path.insert(0, str(ROOT / "scripts"))
+        import ply
+        cloud = ply.read_ply(self.result / "live" / "000000.ply")["vertex"]
+        # The frame of the map is the first camera.
+        first = {int(i): p for i, p in zip(cloud["id"], zip(cloud["x"], cloud["y"], cloud["z"]))}
+        ask("ceresEd.setWay(0)")
+        places, rows = ask("return [ceresEd.places(0), Array.from(ceresEd.surfaces[0].rows)]")
+        gaps = [max(abs(places[3 * i + c] - first[row][c]) for c in range(3))
+                for i, row in enumerate(rows) if row in first]
+        self.assertGreater(len(gaps), 100)
+        self.assertLess(max(gaps), 1e-4)
+
+    def test_a_click_on_the_time_line_selects_a_frame(self):
+        from selenium.webdriver import ActionChains
+        for number, plot in enumerate(BROWSER.find_elements("css selector", "svg.frames")[:3]):
+            ask("arguments[0].scrollIntoView({block: 'center', behavior: 'instant'})", plot)
+            x = ask("""
+                const plot = arguments[0], d = plot.dataset, box = plot.getBoundingClientRect();
+                const part = (arguments[1] - d.low) / (d.high - d.low);
+                const at = Number(d.left) + part * (Number(d.right) - Number(d.left));
+                return at / plot.viewBox.baseVal.width * box.width - box.width / 2;""", plot, 2 + number)
+            ActionChains(BROWSER).move_to_element_with_offset(plot, round(x), 0).click().perform()
+            self.assertIn(f"Frame {2 + number}:", ask("return document.getElementById('frameText').value"))
+
+    def test_the_picture_of_the_frame_has_points_drawn_in(self):
+        def pixels():
+            return BROWSER.execute_async_script("""
+                const done = arguments[0];
+                setTimeout(() => {
+                  const photo = document.getElementById('photo');
+                  const data = photo.getContext('2d').getImageData(0, 0, photo.width, photo.height).data;
+                  let yellow = 0, sum = 0;
+                  for (let i = 0; i < data.length; i += 4) {
+                    sum += data[i] + data[i + 1] + data[i + 2];
+                    if (data[i] > 200 && data[i + 1] > 160 && data[i + 2] < 120) ++yellow;
+                  }
+                  done([yellow, sum]);
+                }, 400);""")
+        with_marks = pixels()
+        BROWSER.find_element("id", "marks").click()
+        without = pixels()
+        self.assertGreater(with_marks[1], 1e5)
+        self.assertGreater(with_marks[0], without[0] + 100)
+
+    def test_the_legend_has_the_range_of_the_data(self):
+        keys = ask("return Array.from(document.getElementById('field').options, (o) => o.value)")
+        self.assertLessEqual({"", "motion", "stability", "last_seen", "first_seen", "colors"}, set(keys))
+        for key in ("motion", "stability", "first_seen"):
+            low, high, values = ask("""
+                ceresEd.chooseField(arguments[0]);
+                const value = (id) => Number(document.getElementById(id).value);
+                return [value('low'), value('high'),
+                        Array.from(ceresEd.surfaces[0].field(arguments[0]).values)];""", key)
+            known = sorted(v for v in values if isinstance(v, (int, float)) and v == v)
+            self.assertEqual(low, 0)
+            self.assertAlmostEqual(high, known[round(0.98 * (len(known) - 1))], delta=2e-3 * high, msg=key)
+
+    def test_two_levels_are_compared_with_batch(self):
+        text = ask("return document.querySelector('main').textContent")
+        self.assertIn("Two levels against batch", text)
+        self.assertIn("ed_slam", BROWSER.find_element("css selector", ".code pre").text)
+
+    def test_every_plot_has_words_and_every_control_a_label(self):
+        self.assertEqual(ask("""return Array.from(document.querySelectorAll('svg, canvas'))
+            .filter((e) => !e.getAttribute('aria-label')).length"""), 0)
+        self.assertEqual(ask("""return Array.from(document.querySelectorAll('input, select'))
+            .filter((e) => !e.labels.length && !e.getAttribute('aria-label')).map((e) => e.id)"""), [])
+
+    def test_a_finished_run_has_the_true_errors(self):
+        page = WORK / "truth.html"
+        run("ed_report", self.result, f"--html={page}")
+        open_page(page)
+        self.assertEqual(ask("return ceresEd.state.field"), "truth")
+        self.assertIn("Errors", ask("return document.querySelector('nav').textContent"))
+
+    def test_runs_are_compared_with_one_camera(self):
+        other, page = WORK / "rigid", WORK / "both.html"
+        run("ed_slam", self.sequence, f"--output={other}", "--rigid", "--live_every=0", "--quiet")
+        run("ed_report", self.result, other, f"--html={page}")
+        open_page(page)
+        self.assertEqual(ask("return ceresEd.panels.length"), 2)
+        flags = [e.text for e in BROWSER.find_elements("css selector", "td:first-child")]
+        self.assertIn("--rigid", flags)
+
+    def test_a_phone_scrolls_in_one_direction_only(self):
+        browser = open_browser(360, 740, is_phone=True)
+        try:
+            open_page(self.page, browser)
+            browser.execute_script("document.querySelectorAll('details').forEach((d) => d.open = true)")
+            self.assertLessEqual(browser.execute_script("return document.documentElement.scrollWidth"), 360)
+        finally:
+            browser.quit()
+
+    def test_evil_names_do_not_script_the_page(self):
+        folder = WORK / "s\"'<b>&amp; \x07</script><script>window.evil=1<" / "x' onerror='window.evil=1"
+        folder.parent.mkdir(parents=True)
+        folder.symlink_to(self.sequence)
+        page = WORK / "evil_slam.html"
+        run("ed_slam", folder, f"--output={WORK / 'evil_out'}", f"--html={page}", "--last=2", "--quiet")
+        open_page(page)
+        self.assertTrue(ask("return ceresEd.ready"))
+        self.assertIsNone(ask("return window.evil || null"))
+        self.assertEqual(ask("return document.querySelectorAll('main b').length"), 0)
 
 
 class EvilNames(unittest.TestCase):

@@ -115,6 +115,17 @@ StatusOr<LiveSnapshot> ReadLiveCloud(const std::string& path,
                            std::to_string((*ids)[i]) + " is there twice, expected it once");
     }
   }
+  const PlyProperty* const stability = vertices.Find("stability");
+  const PlyProperty* const last_seen = vertices.Find("last_seen");
+  if (stability != nullptr && !stability->is_list && last_seen != nullptr && !last_seen->is_list) {
+    for (const int row : loaded->vertex_of_point) {
+      const auto at = static_cast<std::size_t>(row);
+      snapshot.stabilities.push_back(stability->values[at]);
+      const double frame = last_seen->values[at];
+      const bool is_known = frame >= 0.0 && frame <= std::numeric_limits<int>::max();
+      snapshot.last_seen.push_back(is_known ? static_cast<int>(frame) : -1);
+    }
+  }
   snapshot.points = std::move(loaded->cloud.points);
   snapshot.ids = *std::move(ids);
   snapshot.birth_frames = *std::move(birth_frames);

@@ -40,6 +40,9 @@ struct LiveSnapshot {
   // frame.
   std::vector<int> birth_frames;
   std::vector<Eigen::Vector3d> birth_points;
+  // How certain each point is, and the last frame that saw it; empty if the file does not say so.
+  std::vector<double> stabilities;
+  std::vector<int> last_seen;
 
   std::size_t size() const { return points.size(); }
 };

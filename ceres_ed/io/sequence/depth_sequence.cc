@@ -157,4 +157,14 @@ StatusOr<DepthFrame> DepthSequence::Load(int i, FrameProblem* problem) const {
   return frame;
 }
 
+ColorImage DepthSequence::LoadPicture(int i) const {
+  const SequenceEntry& entry = this->entry(i);
+  if (entry.color.empty()) return {};
+  const PinholeCamera& expected = rig() != nullptr ? rig()->left.pinhole : camera();
+  DepthFrame frame;
+  FrameProblem ignored = FrameProblem::kNone;
+  const Status status = Take(entry.color, expected, ReadColor(entry.color), &frame.color, &ignored);
+  return status.ok() ? std::move(frame.color) : ColorImage();
+}
+
 }  // namespace ceres_ed

@@ -239,6 +239,10 @@ class DepthSequence {
   // this frame. A missing or damaged colour image is not an error: the frame has no colour.
   StatusOr<DepthFrame> Load(int i, FrameProblem* problem = nullptr) const;
 
+  // Reads only the colour picture of frame i, the left one of a stereo sequence, as it is in the
+  // file. It is empty if the frame has none, or if it cannot be read.
+  ColorImage LoadPicture(int i) const;
+
  private:
   const SequenceEntry& entry(int i) const;
   Status LoadDepth(const SequenceEntry& entry, DepthFrame* frame, FrameProblem* problem) const;

@@ -2,7 +2,10 @@
 #include <ceres_ed/io/results/live_cloud_io.h>
 #include <ceres_ed/pipeline/evaluate/evaluate_run.h>
 #include <ceres_ed/pipeline/evaluate/sequence_report.h>
+#include <ceres_ed/pipeline/look.h>
 #include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/pipeline/report/run_reader.h>
+#include <ceres_ed/pipeline/report/slam_run_files.h>
 #include <ceres_ed/version.h>
 
 #include <optional>
@@ -90,9 +93,23 @@ nlohmann::ordered_json OptionsReport() {
           {"track_max_distance", kTrackOptions.max_distance}};
 }
 
+// Writes page and picture of the run that was measured.
+Status WriteLook(const EvalSettings& settings,
+                 const LookOutputs& outputs,
+                 const nlohmann::ordered_json& report) {
+  if (outputs.empty()) return Status::Ok();
+  const StatusOr<FinishedRun> run = ReadFinishedRun(settings.result);
+  if (!run.ok()) return run.status();
+  const SlamRunView files = ReadSlamRun(*run, settings.sequence, /*with_truth=*/true);
+  return WriteSequenceLook(outputs, run->report, report, files.view);
+}
+
 }  // namespace
 
 Outcome EvaluateSequence(const EvalSettings& settings, EvaluateObserver* observer) {
+  if (Status status = PrepareLook({settings.html, settings.png}); !status.ok()) {
+    return Outcome::BadInput(status);
+  }
   const StatusOr<SequenceFiles> sequence = OpenSequenceFiles(settings.sequence);
   if (!sequence.ok()) return Outcome::BadInput(sequence.status());
   const StatusOr<ResultFiles> result =
@@ -104,7 +121,8 @@ Outcome EvaluateSequence(const EvalSettings& settings, EvaluateObserver* observe
   if (!figures.ok()) return Outcome::BadInput(figures.status());
 
   for (const std::string& warning : warnings) observer->OnWarning(warning);
-  if (!settings.report.empty()) {
+  const LookOutputs outputs = {settings.html, settings.png};
+  if (!settings.report.empty() || !outputs.empty()) {
     nlohmann::ordered_json report = {{"program", "ed_eval"}, {"version", kVersion}};
     report["sequence"] = {{"path", settings.sequence}};
     report["result"] = {{"path", settings.result}, {"live_clouds", result->live_paths.size()}};
@@ -112,9 +130,9 @@ Outcome EvaluateSequence(const EvalSettings& settings, EvaluateObserver* observe
     report["options"] = OptionsReport();
     report["warnings"] = warnings;
     report["flags"] = FlagsReport(settings.flags);
-    if (Status status = WriteReport(settings.report, report); !status.ok()) {
-      return Outcome::BadInput(status);
-    }
+    Status status = settings.report.empty() ? Status::Ok() : WriteReport(settings.report, report);
+    if (status.ok()) status = WriteLook(settings, outputs, report);
+    if (!status.ok()) return Outcome::BadInput(status);
   }
   observer->OnSequence(*figures);
   return Outcome::Done();

@@ -22,7 +22,6 @@ struct EvalSettings {
   std::string result;
   // For both.
   std::string report;
-  // For a pair.
   std::string html;
   std::string png;
   // The flags of the program, for the report.

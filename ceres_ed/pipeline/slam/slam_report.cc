@@ -1,6 +1,7 @@
 #include "ceres_ed/pipeline/slam/slam_report.h"
 
 #include <ceres_ed/pipeline/report.h>
+#include <ceres_ed/pipeline/run_command.h>
 #include <ceres_ed/pipeline/slam/frame_records.h>
 #include <ceres_ed/pipeline/slam/slam_verdict.h>
 #include <ceres_ed/slam/map/deformable_map.h>
@@ -172,6 +173,8 @@ ordered_json SlamReport(const SlamRun& run) {
           {"threads", options.num_threads},
           {"warnings", *run.warnings},
           {"flags", FlagsReport(run.settings->flags)},
+          {"flags_given", GivenFlagsReport(run.settings->flags)},
+          {"command", CommandText("ed_slam", {run.settings->input}, run.settings->flags)},
           {"backend", BackendReport()}};
 }
 

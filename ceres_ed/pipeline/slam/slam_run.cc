@@ -4,6 +4,7 @@
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/pipeline/slam/challenge.h>
+#include <ceres_ed/pipeline/slam/slam_look.h>
 #include <ceres_ed/pipeline/slam/slam_output.h>
 #include <ceres_ed/pipeline/slam/slam_session.h>
 #include <ceres_ed/pipeline/slam/warning_log.h>
@@ -72,6 +73,7 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   if (!sequence.ok()) return Outcome::BadInput(sequence.status());
   outcome = CheckOutputFolder(settings);
   if (!outcome.done()) return outcome;
+  if (Status status = PrepareSlamLook(settings); !status.ok()) return Outcome::BadInput(status);
   observer->OnNote((*sequence)->description());
   WarningLog warnings(observer);
   for (const std::string& warning : IdlePluginWarnings(registry, energies)) {
@@ -100,7 +102,8 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   outcome = session.Run();
   const bool has_result = outcome.done() || outcome.code == ExitCode::kStoppedEarly;
   if (has_result) {
-    const Status status = challenge->Write(settings.output, **sequence);
+    Status status = challenge->Write(settings.output, **sequence);
+    if (status.ok()) status = WriteSlamLook(settings);
     if (!status.ok()) return Outcome::BadInput(status);
   }
   return outcome;

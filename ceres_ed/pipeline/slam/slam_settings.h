@@ -4,6 +4,7 @@
 
 #include <ceres_ed/io/sequence/depth_sequence.h>
 #include <ceres_ed/pipeline/run_flag.h>
+#include <ceres_ed/report/picture/theme.h>
 #include <ceres_ed/slam/slam_options.h>
 #include <ceres_ed/stereo/stereo_options.h>
 #include <ceres_ed/util/named_values.h>
@@ -30,6 +31,11 @@ struct SlamSettings {
   std::string input;
   // The folder that is written.
   std::string output;
+  // The page and the picture of the run, and the surface of its map.
+  std::string html;
+  std::string png;
+  Theme theme = Theme::kLight;
+  std::string mesh;
   // A PLY file of points to follow, in the camera frame of the first frame, in metres.
   std::string track;
   // The challenge whose points are followed, in the place of `track`, and whose files are written.

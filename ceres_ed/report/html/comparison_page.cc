@@ -2,6 +2,7 @@
 
 #include <ceres_ed/evaluation/pair_evaluation.h>
 #include <ceres_ed/report/html/about.h>
+#include <ceres_ed/report/html/compared_reports.h>
 #include <ceres_ed/report/html/page.h>
 #include <ceres_ed/report/html/report_json.h>
 #include <ceres_ed/report/html/svg_plot.h>
@@ -68,31 +69,6 @@ HtmlTable HeadOf(const std::string& caption,
   return table;
 }
 
-// Returns the flags that have not the same value in all runs.
-HtmlTable FlagsThatDiffer(const std::vector<ComparedRun>& runs) {
-  HtmlTable table = HeadOf("Flags that differ", "flag", runs);
-  std::vector<std::string> names;
-  ordered_json known = ordered_json::object();
-  for (const ComparedRun& run : runs) {
-    const ordered_json& flags = MemberOf(run.report, {"flags"});
-    if (!flags.is_object()) continue;
-    for (const auto& [name, value] : flags.items()) {
-      if (!known.contains(name)) names.push_back(name);
-      known[name] = true;
-    }
-  }
-  for (const std::string& name : names) {
-    std::vector<std::string> row = {"--" + name};
-    bool is_equal = true;
-    for (const ComparedRun& run : runs) {
-      row.push_back(FlagText(MemberOf(run.report, {"flags", name.c_str()})));
-      is_equal = is_equal && row.back() == row[1];
-    }
-    if (!is_equal) table.rows.push_back(std::move(row));
-  }
-  return table;
-}
-
 void AddCurves(const std::vector<ComparedRun>& runs, HtmlPage* page) {
   std::vector<PlotSeries> target;
   std::vector<PlotSeries> truth;
@@ -154,10 +130,9 @@ std::string ComparisonPage(const std::vector<ComparedRun>& runs,
     if (is_known) table.rows.push_back(std::move(row));
   }
   page.Table(table);
-  page.Section("Flags that differ");
-  const HtmlTable flags = FlagsThatDiffer(runs);
-  if (flags.rows.empty()) page.Paragraph("All flags are equal.");
-  page.Table(flags);
+  std::vector<std::pair<std::string, const ordered_json*>> reports;
+  for (const ComparedRun& run : runs) reports.emplace_back(run.name, &run.report);
+  AddFlagsThatDiffer(reports, &page);
   page.Section("View");
   AddViewer(scene, picture_png, &page);
   AddCurves(runs, &page);

@@ -75,6 +75,35 @@ void AddTimes(const ordered_json& report, HtmlPage* page) {
   page->FoldedTable("Figures of the times", table);
 }
 
+void AddFrameTimes(const ordered_json& report, HtmlPage* page) {
+  const ordered_json& times = MemberOf(report, {"time_s"});
+  if (!times.is_object()) return;
+  constexpr double kMilli = 1000.0;
+  std::vector<PlotBar> bars;
+  HtmlTable table = {
+      "Time of each stage of a frame in milliseconds", {"stage", "median", "mean", "max"}, {}, 1};
+  for (const auto& [name, stage] : times.items()) {
+    if (!stage.is_object()) continue;
+    const double mean = kMilli * NumberOf(stage, {"mean"});
+    table.rows.push_back({name,
+                          ShortNumber(kMilli * NumberOf(stage, {"median"})),
+                          ShortNumber(mean),
+                          ShortNumber(kMilli * NumberOf(stage, {"max"}))});
+    if (name != "t_total" && mean > 0.0) bars.push_back({name, mean, ShortNumber(mean) + " ms"});
+  }
+  page->Section("Time");
+  const ordered_json& latency = MemberOf(report, {"latency_ms"});
+  page->Plot(
+      BarPlot({"", "", "Bars of the mean time of each stage of a frame; the table has the figures"},
+              bars),
+      "Mean time of a frame by stage; " + ShortNumber(NumberOf(times, {"total"})) +
+          " s in all, with " + ValueText(MemberOf(report, {"threads"})) +
+          " threads. From the pictures to the result of a frame: " +
+          ValueText(MemberOf(latency, {"p50"}), 3) + " ms in the median, " +
+          ValueText(MemberOf(latency, {"p95"}), 3) + " ms at 95 %.");
+  page->Table(table);
+}
+
 void AddChecks(const ordered_json& report, HtmlPage* page) {
   const ordered_json& checks = MemberOf(report, {"checks"});
   if (!checks.is_array() || checks.empty()) return;

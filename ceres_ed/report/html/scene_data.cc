@@ -112,6 +112,7 @@ ordered_json SurfaceData(const ViewSurface& surface) {
                        {"fields", ordered_json::array()},
                        {"motion", nullptr},
                        {"moments", nullptr},
+                       {"spacing", surface.spacing},
                        {"colors", nullptr},
                        {"normals", nullptr}};
   for (const ScalarField& field : surface.fields) data["fields"].push_back(FieldData(field));

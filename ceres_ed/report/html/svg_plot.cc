@@ -22,6 +22,7 @@ constexpr double kBottom = 48.0;
 constexpr double kTickLength = 5.0;
 constexpr double kLegendRow = 18.0;
 constexpr int kNumStyles = 7;
+constexpr char kFramesClass[] = " frames";
 
 std::string Number(double value) {
   constexpr int kSize = 64;
@@ -30,9 +31,21 @@ std::string Number(double value) {
   return text;
 }
 
-std::string Open(const PlotLabels& labels, double height) {
-  return "<svg class=\"plot\" viewBox=\"0 0 " + Number(kWidth) + " " + Number(height) +
-         "\" role=\"img\" aria-label=\"" + EscapeHtml(labels.description) + "\">\n";
+// `data` are more attributes and classes.
+std::string Open(const PlotLabels& labels,
+                 double height,
+                 const std::string& more_classes = "",
+                 const std::string& data = "") {
+  return "<svg class=\"plot" + more_classes + "\"" + data + " viewBox=\"0 0 " + Number(kWidth) +
+         " " + Number(height) + "\" role=\"img\" aria-label=\"" + EscapeHtml(labels.description) +
+         "\">\n";
+}
+
+// Returns where the frames of a plot are, for the scripts of the page.
+std::string FrameData(const FrameRange& frames, double left, double right) {
+  return " data-low=\"" + std::to_string(frames.first) + "\" data-high=\"" +
+         std::to_string(frames.last) + "\" data-left=\"" + Number(left) + "\" data-right=\"" +
+         Number(right) + "\"";
 }
 
 std::string Line(double x1, double y1, double x2, double y2, const char* style) {
@@ -155,9 +168,19 @@ std::string LinePlot(const PlotLabels& labels,
   }
   if (x.high < x.low) return "";
   if (!scales.log_y) y.low = std::min(y.low, 0.0);
+  if (scales.frames) {
+    x.low = scales.frames->first;
+    x.high = scales.frames->last;
+  }
   Widen(&x);
   Widen(&y);
-  std::string svg = Open(labels, kHeight + legend) + DrawAxes(x, y, labels);
+  const bool of_frames = scales.frames.has_value();
+  std::string svg = Open(labels,
+                         kHeight + legend,
+                         of_frames ? kFramesClass : "",
+                         of_frames ? FrameData(*scales.frames, x.first, x.last) : "") +
+                    DrawAxes(x, y, labels);
+  if (of_frames) svg += Line(x.last, y.first, x.last, y.last, "now");
   for (std::size_t i = 0; i < series.size(); ++i) {
     svg += DrawSeries(series[i], x, y, static_cast<int>(i));
   }
@@ -222,6 +245,92 @@ PlotSeries CumulativeSeries(const std::string& name, std::vector<double> values)
     series.y.push_back(kPercent * share);
   }
   return series;
+}
+
+namespace {
+
+// A status with its sign and class of the style sheet.
+struct StatusLook {
+  const char* name;
+  const char* sign;
+  const char* style;
+};
+
+constexpr StatusLook kStatuses[] = {{"initialized", "I", "st0"},
+                                    {"tracked", "", "st1"},
+                                    {"relocalized", "R", "st2"},
+                                    {"lost", "L", "st3"},
+                                    {"skipped", "S", "st4"}};
+
+const StatusLook& LookOf(const std::string& status) {
+  for (const StatusLook& look : kStatuses) {
+    if (status == look.name) return look;
+  }
+  return kStatuses[4];
+}
+
+std::string Box(double x, double y, double width, double height, const char* style) {
+  return "<rect class=\"" + std::string(style) + "\" x=\"" + Number(x) + "\" y=\"" + Number(y) +
+         "\" width=\"" + Number(width) + "\" height=\"" + Number(height) + "\"/>\n";
+}
+
+// Returns a sample of each status that occurs, with its sign, name and number of frames.
+std::string StatusLegend(const std::vector<std::string>& statuses, double y) {
+  std::string svg;
+  double x = kLeft;
+  for (const StatusLook& look : kStatuses) {
+    const auto count = std::count(statuses.begin(), statuses.end(), look.name);
+    if (count == 0) continue;
+    const std::string sign = *look.sign == '\0' ? "" : std::string(look.sign) + ": ";
+    const std::string text = sign + look.name + " (" + std::to_string(count) + ")";
+    constexpr double kSample = 14.0;
+    constexpr double kCharacter = 7.4;
+    svg += Box(x, y - kSample + 2.0, kSample, kSample, look.style);
+    svg += Text(x + kSample + 5.0, y, "start", text);
+    x += kSample + 16.0 + kCharacter * static_cast<double>(text.size());
+  }
+  return svg;
+}
+
+}  // namespace
+
+std::string StatusStrip(const std::string& description,
+                        const std::vector<int>& numbers,
+                        const std::vector<std::string>& statuses) {
+  if (numbers.empty()) return "";
+  constexpr double kStripTop = 18.0;
+  constexpr double kStripHeight = 26.0;
+  constexpr double kTotal = 104.0;
+  Axis x = {1.0 * numbers.front(), 1.0 * numbers.back(), kLeft, kWidth - kRight, false};
+  Widen(&x);
+  const FrameRange frames = {numbers.front(), numbers.back()};
+  std::string svg =
+      Open({"", "", description}, kTotal, kFramesClass, FrameData(frames, x.first, x.last));
+  const double half = 0.5 * (x.last - x.first) / std::max(1.0, x.high - x.low);
+  double last_sign = -kWidth;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t end = i;
+    while (end + 1 < numbers.size() && statuses[end + 1] == statuses[i]) ++end;
+    const StatusLook& look = LookOf(statuses[i]);
+    const double from = std::max(x.first, x.At(numbers[i]) - half);
+    const double to = std::min(x.last, x.At(numbers[end]) + half);
+    svg += Box(from, kStripTop, std::max(to - from, 1.0), kStripHeight, look.style);
+    const double middle = 0.5 * (from + to);
+    constexpr double kApart = 10.0;
+    if (*look.sign != '\0' && middle - last_sign > kApart) {
+      svg += Text(middle, kStripTop - 5.0, "middle", look.sign);
+      last_sign = middle;
+    }
+    i = end + 1;
+  }
+  const double bottom = kStripTop + kStripHeight;
+  for (const double tick : x.Ticks()) {
+    svg += Line(x.At(tick), bottom, x.At(tick), bottom + kTickLength, "axis");
+    svg += Text(x.At(tick), bottom + 18.0, "middle", TickText(tick));
+  }
+  svg += Text(x.first - 8.0, kStripTop + 17.0, "end", "status");
+  svg += Line(x.last, kStripTop - 3.0, x.last, bottom + 3.0, "now");
+  return svg + StatusLegend(statuses, kTotal - 8.0) + "</svg>\n";
 }
 
 std::string BarPlot(const PlotLabels& labels, const std::vector<PlotBar>& bars) {

@@ -3,6 +3,7 @@
 #ifndef CERES_ED_REPORT_HTML_SVG_PLOT_H_
 #define CERES_ED_REPORT_HTML_SVG_PLOT_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,10 +24,19 @@ struct PlotSeries {
   std::vector<double> y;
 };
 
+// The first and the last frame of a sequence.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
 // Which axes are logarithmic; values <= 0 are left out there.
 struct PlotScales {
   bool log_x = false;
   bool log_y = false;
+  // x are the frames of a sequence: the axis has all of them, and the page marks the frame that it
+  // shows, and shows the frame that is clicked (assets/scripts/timeline.js).
+  std::optional<FrameRange> frames = std::nullopt;
 };
 
 // Returns lines through the points of each series, with a legend above them. Series differ by
@@ -51,6 +61,12 @@ std::string HistogramPlot(const PlotLabels& labels, const HistogramBins& bins);
 
 // Returns the share of values (in percent) that are at most x, as a series. NaN is left out.
 PlotSeries CumulativeSeries(const std::string& name, std::vector<double> values);
+
+// Returns a strip over the frames `numbers` (ascending), with the colour and the sign of the status
+// of each, and a legend. Empty without frames.
+std::string StatusStrip(const std::string& description,
+                        const std::vector<int>& numbers,
+                        const std::vector<std::string>& statuses);
 
 struct PlotBar {
   std::string name;

@@ -4,8 +4,10 @@
 #include <ceres_ed/report/html/escape.h>
 #include <ceres_ed/report/html/scene_data.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <set>
+#include <vector>
 
 namespace ceres_ed {
 namespace {
@@ -21,10 +23,16 @@ std::string FieldChoices(const Scene& scene) {
               EscapeHtml(field.name + " [" + field.unit + "]") + "</option>\n";
     }
   }
+  for (const ViewSurface& surface : scene.surfaces) {
+    if (surface.colors.empty()) continue;
+    html += std::string("<option value=\"") + kOwnColors + "\">colours of the pictures</option>\n";
+    break;
+  }
   return html;
 }
 
 bool Moves(const Scene& scene) {
+  if (scene.timeline) return false;
   for (const ViewPanel& panel : scene.panels) {
     if (panel.at < 0.0) return true;
   }
@@ -36,6 +44,56 @@ bool HasFaces(const Scene& scene) {
     if (!surface.triangles.empty()) return true;
   }
   return false;
+}
+
+// Returns the slider over the frames of a sequence.
+std::string FrameControls(const Timeline& timeline) {
+  const std::string last = std::to_string(timeline.moments.size() - 1);
+  return "<div class=\"controls\">\n<label class=\"slider\">Frame <input type=\"range\" "
+         "id=\"frame\" min=\"0\" max=\"" +
+         last + "\" step=\"1\" value=\"" + last +
+         "\"></label>\n<button type=\"button\" id=\"play\">Play</button>\n"
+         "<label><input type=\"checkbox\" id=\"path\" checked> camera and tracks</label>\n"
+         "<label><input type=\"checkbox\" id=\"marks\" checked> points in the picture</label>\n"
+         "<output class=\"frame-text\" id=\"frameText\" aria-live=\"polite\"></output></div>\n";
+}
+
+bool HasPicture(const Scene& scene) {
+  if (!scene.timeline) return false;
+  const std::vector<ViewPicture>& pictures = scene.timeline->pictures;
+  return std::any_of(pictures.begin(), pictures.end(), [](const ViewPicture& picture) {
+    return !picture.image.empty();
+  });
+}
+
+// Returns the place where a scene is drawn, with the picture of the frame beside it.
+std::string Stage(const Scene& scene, const std::string& description) {
+  std::string html =
+      "<div class=\"stage\"><canvas id=\"view\" tabindex=\"0\" role=\"img\" aria-label=\"" +
+      description + "\"></canvas><div id=\"titles\" aria-hidden=\"true\"></div></div>\n";
+  if (!scene.timeline) return html;
+  if (!HasPicture(scene)) return "<div class=\"pair alone\">\n" + html + "</div>\n";
+  return "<div class=\"pair\">\n" + html +
+         "<figure id=\"photoFigure\"><canvas id=\"photo\" role=\"img\" width=\"640\" "
+         "height=\"480\" aria-label=\"Colour picture of the frame\"></canvas><figcaption>The "
+         "picture of the frame. Circles: " +
+         EscapeHtml(scene.timeline->marks) +
+         "; lines lead from where they were in the picture before.</figcaption></figure>\n</div>\n";
+}
+
+// Returns how much of a sequence is shown.
+std::string MomentSentence(const Timeline& timeline) {
+  std::string text = " The slider has " + std::to_string(timeline.moments.size()) + " of the " +
+                     std::to_string(timeline.frames.size()) + " frames.";
+  int width = 0;
+  for (const ViewPicture& picture : timeline.pictures) {
+    width = std::max(width, picture.image.width());
+  }
+  if (width > 0) {
+    text += " Pictures are " + std::to_string(width) + " pixels across (JPEG), of " +
+            std::to_string(timeline.camera.width) + ".";
+  }
+  return text;
 }
 
 std::string Controls(const Scene& scene) {
@@ -90,12 +148,16 @@ std::string Describe(const Scene& scene) {
 }
 
 std::string CountSentence(const ViewSurface& surface) {
-  const std::string all = std::to_string(surface.all_points) + " points and " +
-                          std::to_string(surface.all_triangles) + " triangles";
+  const std::string all =
+      std::to_string(surface.all_points) + " points" +
+      (surface.all_triangles > 0 ? " and " + std::to_string(surface.all_triangles) + " triangles"
+                                 : "");
   if (!surface.IsDecimated()) return surface.name + ": all " + all + ".";
-  return surface.name + ": " + std::to_string(surface.points.size()) + " of the points and " +
-         std::to_string(surface.triangles.size()) + " triangles, chosen from " + all +
-         " in the cells of a grid.";
+  const std::string triangles =
+      surface.all_triangles > 0 ? " and " + std::to_string(surface.triangles.size()) + " triangles"
+                                : "";
+  return surface.name + ": " + std::to_string(surface.points.size()) + " of the points" +
+         triangles + ", chosen from " + all + " in the cells of a grid.";
 }
 
 }  // namespace
@@ -120,14 +182,12 @@ void AddViewer(const Scene& scene, const std::string& picture_png, HtmlPage* pag
         "in place of the view.");
     page->Html(picture);
   } else {
-    page->Html(
-        "<div class=\"viewer\" id=\"viewer\" hidden>\n" + Controls(scene) +
-        "<div class=\"stage\"><canvas id=\"view\" tabindex=\"0\" role=\"img\" aria-label=\"" +
-        description + "\"></canvas><div id=\"titles\" aria-hidden=\"true\"></div></div>\n" +
-        kLegend +
-        "<p class=\"hint\">Drag turns, the right button or two fingers move, the wheel or a "
-        "pinch zooms after a click into the view. Keys: arrows turn, + and - zoom, Home "
-        "resets.</p>\n</div>\n");
+    page->Html("<div class=\"viewer\" id=\"viewer\" hidden>\n" + Controls(scene) +
+               (scene.timeline ? FrameControls(*scene.timeline) : "") + Stage(scene, description) +
+               kLegend +
+               "<p class=\"hint\">Drag turns, the right button or two fingers move, the wheel or a "
+               "pinch zooms after a click into the view. Keys: arrows turn, + and - zoom, Home "
+               "resets.</p>\n</div>\n");
     page->Html(
         "<div id=\"still\">" + picture +
         "<p class=\"hint\" id=\"stillText\">The 3-D view needs scripts and WebGL.</p></div>\n");
@@ -135,6 +195,7 @@ void AddViewer(const Scene& scene, const std::string& picture_png, HtmlPage* pag
   }
   std::string counts = "Shown:";
   for (const ViewSurface& surface : scene.surfaces) counts += " " + CountSentence(surface);
+  if (scene.timeline) counts += MomentSentence(*scene.timeline);
   if (!scene.graph.empty()) {
     counts += " Nodes of the graph: blue are PR, orange are PI, grey are inside the body.";
   }

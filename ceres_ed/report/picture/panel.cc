@@ -120,11 +120,15 @@ void PanelPainter::DrawFaces(const std::vector<Eigen::Vector3d>& points,
 void PanelPainter::DrawPoints(const std::vector<Eigen::Vector3d>& points,
                               const std::vector<Eigen::Vector3d>& colors) {
   // Points that fill a disc of the scene's size, half of them behind the others.
-  const double radius =
+  double radius =
       std::clamp(0.5 * picture_.height() / std::sqrt(static_cast<double>(points.size()) + 1.0),
                  1.0,
                  6.0 * Unit());
   const ViewSurface& surface = *contents_.surface;
+  if (surface.spacing > 0.0) {
+    // Discs that touch, at the distance of the middle of the scene.
+    radius = std::clamp(1.1 * camera_.PixelsOf(surface.spacing), 1.0, 6.0 * Unit());
+  }
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!surface.IsThere(static_cast<int>(i), contents_.at)) continue;
     double cosine = 1.0;

@@ -34,6 +34,8 @@ class PanelCamera {
               int height);
 
   Eigen::Vector3d ToEye(const Eigen::Vector3d& point) const;
+  // Returns how many pixels a length has that lies in the middle of the scene.
+  double PixelsOf(double length) const { return pinhole_.fx * length / radius_ / distance_; }
   // Returns a direction of the scene in the frame of the eye.
   Eigen::Vector3d TurnToEye(const Eigen::Vector3d& direction) const {
     return eye_from_scene_ * direction;

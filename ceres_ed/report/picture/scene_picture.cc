@@ -6,7 +6,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <tuple>
+#include <utility>
 #include <vector>
+
+#include <Eigen/Core>
 
 namespace ceres_ed {
 namespace {
@@ -14,6 +21,8 @@ namespace {
 struct TitledPanel {
   std::string title;
   PanelContents contents;
+  // A picture above the panel, or null.
+  const ViewPicture* picture = nullptr;
 };
 
 const ScalarField* FindField(const Scene& scene, const std::string& key) {
@@ -32,6 +41,12 @@ ViewFrame FrameOf(const std::vector<TitledPanel>& panels,
   Eigen::AlignedBox2d box;
   for (const TitledPanel& panel : panels) {
     box.extend(any.Extent(PointsAt(*panel.contents.surface, panel.contents.at)));
+    if (panel.contents.timeline == nullptr) continue;
+    std::vector<Eigen::Vector3d> path;
+    for (const TimelineFrame& frame : panel.contents.timeline->frames) {
+      if (frame.map_from_camera) path.push_back(frame.map_from_camera->translation);
+    }
+    box.extend(any.Extent(path));
   }
   ViewFrame frame;
   if (box.isEmpty() || !(box.diagonal().norm() > 0.0)) return frame;
@@ -55,9 +70,13 @@ class ScenePainter {
 
  private:
   std::vector<TitledPanel> ListPanels() const;
+  std::vector<TitledPanel> ListMoments() const;
+  // Draws a picture and its marks with its upper left corner at (left, top).
+  void DrawPhoto(const ViewPicture& photo, int left, int top, int width);
   void DrawHeading(double* y);
   void DrawLegend(double y);
   void DrawNodeLegend(double x, double y);
+  void FillDisc(const Eigen::Vector2d& at, double radius, const Rgb& color);
   void Write(const std::string& text, double x, double y, double size, const Rgb& color) {
     DrawText(text, x, y, size, color, &picture_);
   }
@@ -72,7 +91,30 @@ class ScenePainter {
   ColorImage picture_;
 };
 
+// Returns panels of the first, the middle and the last moment of a sequence.
+std::vector<TitledPanel> ScenePainter::ListMoments() const {
+  const Timeline& timeline = *scene_.timeline;
+  std::vector<TitledPanel> panels;
+  const int last = static_cast<int>(timeline.moments.size()) - 1;
+  for (const int moment : std::set<int>{std::min(1, last), last / 2, last}) {
+    TitledPanel panel;
+    panel.contents.surface = &scene_.surfaces[scene_.panels[0].surface];
+    panel.contents.at = panel.contents.surface->moments->AtOf(moment);
+    panel.contents.plain = colors_.surface;
+    panel.contents.field = key_;
+    panel.contents.timeline = &timeline;
+    panel.contents.scene_radius = BallAround(scene_).radius;
+    const TimelineFrame& frame = timeline.frames[timeline.moments[moment]];
+    panel.title = "Frame " + std::to_string(frame.number);
+    if (frame.status != "tracked") panel.title += " (" + frame.status + ")";
+    if (!timeline.pictures[moment].image.empty()) panel.picture = &timeline.pictures[moment];
+    panels.push_back(std::move(panel));
+  }
+  return panels;
+}
+
 std::vector<TitledPanel> ScenePainter::ListPanels() const {
+  if (scene_.timeline && scene_.surfaces[scene_.panels[0].surface].moments) return ListMoments();
   std::vector<TitledPanel> panels;
   for (const ViewPanel& panel : scene_.panels) {
     PanelContents contents;
@@ -138,6 +180,50 @@ void ScenePainter::DrawLegend(double y) {
         colors_.text);
 }
 
+// Returns the height of a picture that is `width` pixels wide.
+int PhotoHeight(const ViewPicture& photo, int width) {
+  return width * photo.image.height() / photo.image.width();
+}
+
+void ScenePainter::DrawPhoto(const ViewPicture& photo, int left, int top, int width) {
+  const double scale = static_cast<double>(photo.image.width()) / width;
+  const int height = PhotoHeight(photo, width);
+  for (int v = 0; v < height; ++v) {
+    for (int u = 0; u < width; ++u) {
+      if (!picture_.Contains(left + u, top + v)) continue;
+      // Between the four pixels around.
+      const double x = std::clamp(scale * (u + 0.5) - 0.5, 0.0, photo.image.width() - 1.0);
+      const double y = std::clamp(scale * (v + 0.5) - 0.5, 0.0, photo.image.height() - 1.0);
+      const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
+      const int x1 = std::min(x0 + 1, photo.image.width() - 1);
+      const int y1 = std::min(y0 + 1, photo.image.height() - 1);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double above =
+            (x0 + 1 - x) * photo.image(x0, y0)[c] + (x - x0) * photo.image(x1, y0)[c];
+        const double below =
+            (x0 + 1 - x) * photo.image(x0, y1)[c] + (x - x0) * photo.image(x1, y1)[c];
+        picture_(left + u, top + v)[c] =
+            static_cast<std::uint8_t>(std::lround((y0 + 1 - y) * above + (y - y0) * below));
+      }
+    }
+  }
+  const double radius = 0.16 * text_;
+  for (const PictureMark& mark : photo.marks) {
+    const Eigen::Vector2d at = mark.pixel / scale + Eigen::Vector2d(left, top);
+    FillDisc(at, 1.6 * radius, kMarkRim);
+    FillDisc(at, radius, kMarkColor);
+  }
+}
+
+void ScenePainter::FillDisc(const Eigen::Vector2d& at, double radius, const Rgb& color) {
+  for (int v = static_cast<int>(at.y() - radius); v <= at.y() + radius + 1.0; ++v) {
+    for (int u = static_cast<int>(at.x() - radius); u <= at.x() + radius + 1.0; ++u) {
+      const bool is_inside = (Eigen::Vector2d(u, v) - at).norm() <= radius;
+      if (is_inside && picture_.Contains(u, v)) picture_(u, v) = color;
+    }
+  }
+}
+
 void ScenePainter::DrawNodeLegend(double x, double y) {
   const auto known = [&](NodeKind kind) {
     return std::count(scene_.graph.kinds.begin(), scene_.graph.kinds.end(), kind) > 0;
@@ -148,14 +234,7 @@ void ScenePainter::DrawNodeLegend(double x, double y) {
         std::tuple(NodeKind::kInner, "inside", kOtherNodeColor)}) {
     if (!known(kind)) continue;
     const double radius = 0.32 * text_;
-    for (int v = 0; v < static_cast<int>(2.0 * radius) + 1; ++v) {
-      for (int u = 0; u < static_cast<int>(2.0 * radius) + 1; ++u) {
-        const bool is_inside = std::hypot(u - radius, v - radius) <= radius;
-        const int at_u = static_cast<int>(x) + u;
-        const int at_v = static_cast<int>(y + 0.35 * text_) + v;
-        if (is_inside && picture_.Contains(at_u, at_v)) picture_(at_u, at_v) = color;
-      }
-    }
+    FillDisc({x + radius, y + 0.35 * text_ + radius}, radius, color);
     Write(name, x + 0.9 * text_, y + text_, text_, colors_.text);
     x += 1.6 * text_ + TextWidth(name, text_);
   }
@@ -175,22 +254,34 @@ ColorImage ScenePainter::Draw() {
   const int height =
       std::clamp(static_cast<int>(width * size.y() / size.x()), width / 3, options_.width / 2);
   const double title = 1.5 * text_;
+  // Pictures stand above the panels of their moments.
+  const int margin = static_cast<int>(0.25 * text_);
+  int photo_height = 0;
+  for (const TitledPanel& panel : panels) {
+    if (panel.picture == nullptr) continue;
+    photo_height = std::max(photo_height, PhotoHeight(*panel.picture, width - 2 * margin));
+  }
   const double heading = 0.6 * text_ + (options_.title.empty() ? 0.0 : 1.6 * text_) +
                          (options_.subtitle.empty() ? 0.0 : 1.3 * text_);
   const double legend = field_ != nullptr || !scene_.graph.empty() ? 2.0 * text_ : 0.0;
-  picture_ = ColorImage(
-      options_.width, static_cast<int>(heading + rows * (height + title) + legend), colors_.ground);
+  picture_ = ColorImage(options_.width,
+                        static_cast<int>(heading + rows * (height + photo_height + title) + legend),
+                        colors_.ground);
   double y = 0.0;
   DrawHeading(&y);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const int left = static_cast<int>(i) % columns * width;
     const int row = static_cast<int>(i) / columns;
-    const double top = y + row * (height + title);
+    const double top = y + row * (height + photo_height + title);
+    if (panels[i].picture != nullptr) {
+      DrawPhoto(
+          *panels[i].picture, left + margin, static_cast<int>(top + title), width - 2 * margin);
+    }
     const ColorImage panel =
         DrawPanel(panels[i].contents, camera, ball, frame, width, height, options_.theme);
     for (int v = 0; v < height; ++v) {
       for (int u = 0; u < width; ++u) {
-        const int at_v = static_cast<int>(top + title) + v;
+        const int at_v = static_cast<int>(top + title) + photo_height + v;
         if (picture_.Contains(left + u, at_v)) picture_(left + u, at_v) = panel(u, v);
       }
     }
@@ -201,7 +292,7 @@ ColorImage ScenePainter::Draw() {
           1.1 * text_,
           colors_.text);
   }
-  y += rows * (height + title);
+  y += rows * (height + photo_height + title);
   if (field_ != nullptr) DrawLegend(y);
   if (!scene_.graph.empty()) DrawNodeLegend(options_.width - 12.0 * text_, y);
   return std::move(picture_);

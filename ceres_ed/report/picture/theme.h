@@ -45,6 +45,9 @@ inline constexpr Rgb kPrColor = {0, 114, 178};
 inline constexpr Rgb kPiColor = {230, 159, 0};
 inline constexpr Rgb kOtherNodeColor = {136, 136, 136};
 inline constexpr Rgb kLandmarkColor = {213, 94, 0};
+// Points that are followed, in a picture, with a rim.
+inline constexpr Rgb kMarkColor = {255, 210, 63};
+inline constexpr Rgb kMarkRim = {0, 0, 0};
 
 }  // namespace ceres_ed
 

@@ -1,6 +1,7 @@
 #include "ceres_ed/report/view/scene.h"
 
 #include <ceres_ed/geometry/bounding_box.h>
+#include <ceres_ed/util/statistics.h>
 
 #include <algorithm>
 #include <cstddef>
@@ -8,6 +9,29 @@
 #include <utility>
 
 namespace ceres_ed {
+namespace {
+
+// Keeps the 96 % of the points that are nearest to their median.
+void LeaveOutFarPoints(std::vector<Eigen::Vector3d>* points) {
+  constexpr double kShare = 0.96;
+  if (points->empty()) return;
+  Eigen::Vector3d median;
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (const Eigen::Vector3d& point : *points) values.push_back(point[axis]);
+    median[axis] = Median(std::move(values));
+  }
+  const auto kept = static_cast<std::ptrdiff_t>(kShare * static_cast<double>(points->size()));
+  std::nth_element(points->begin(),
+                   points->begin() + kept,
+                   points->end(),
+                   [&median](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+                     return (a - median).squaredNorm() < (b - median).squaredNorm();
+                   });
+  points->resize(static_cast<std::size_t>(std::max<std::ptrdiff_t>(kept, 1)));
+}
+
+}  // namespace
 
 std::vector<Eigen::Vector3d> PointsAt(const ViewSurface& surface, double at) {
   if (surface.moments && !surface.moments->places.empty()) {
@@ -42,6 +66,10 @@ SceneBall BallAround(const Scene& scene) {
       if (frame.map_from_camera) path.push_back(frame.map_from_camera->translation);
     }
     shown.push_back(std::move(path));
+  }
+  // A few points of a map that float far away must not make all others small.
+  if (scene.timeline) {
+    for (std::size_t i = 0; i + 1 < shown.size(); ++i) LeaveOutFarPoints(&shown[i]);
   }
   SceneBall ball;
   Eigen::AlignedBox3d box;

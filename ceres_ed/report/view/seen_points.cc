@@ -11,9 +11,6 @@
 #include <utility>
 
 namespace ceres_ed {
-namespace {
-
-// Returns the median distance of a point from its nearest neighbour.
 double MedianSpacing(const std::vector<Eigen::Vector3d>& points) {
   // More points would not change a median.
   constexpr std::size_t kMost = 2000;
@@ -28,8 +25,6 @@ double MedianSpacing(const std::vector<Eigen::Vector3d>& points) {
   }
   return spacings.empty() ? 0.0 : Median(std::move(spacings));
 }
-
-}  // namespace
 
 std::vector<char> PointsNotShown(const PointCloud& result, const PointCloud& target) {
   constexpr double kReach = 2.5;

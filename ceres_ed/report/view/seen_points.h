@@ -6,7 +6,12 @@
 
 #include <vector>
 
+#include <Eigen/Core>
+
 namespace ceres_ed {
+
+// Returns the median distance of a point from its nearest neighbour; 0 for fewer than two points.
+double MedianSpacing(const std::vector<Eigen::Vector3d>& points);
 
 // Returns 1 for each point of `result` that lies on a part which `target` does not show, such as
 // the side of a body that the camera did not see, and 0 for all others. The target shows the places

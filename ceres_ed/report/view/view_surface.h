@@ -35,6 +35,9 @@ struct ViewSurface {
   // known.
   std::vector<Rgb> colors;
   std::vector<Eigen::Vector3d> normals;
+  // The distance of neighbouring points, which says how large points without faces are drawn; 0 if
+  // it is not known.
+  double spacing = 0.0;
   // How the points move, by a warp or from moment to moment; nothing for a surface that stands
   // still.
   std::optional<WarpMotion> motion;

@@ -20,9 +20,8 @@ function dotMaterial(more) {
 
 // Returns the material of a surface without faces. Points with a normal are darker where the
 // surface turns away from the eye.
-function cloudMaterial(count) {
-  const material = new THREE.PointsMaterial(
-      {size: 4.5 / Math.sqrt(count), vertexColors: THREE.VertexColors});
+function cloudMaterial(size) {
+  const material = new THREE.PointsMaterial({size, vertexColors: THREE.VertexColors});
   material.onBeforeCompile = (shader) => {
     shader.vertexShader = 'varying float shade;\n' + shader.vertexShader.replace(
         '#include <project_vertex>',
@@ -84,7 +83,10 @@ class Panel {
   addPoints() {
     const normals = this.surface.normals || new Float32Array(3 * this.surface.count);
     this.geometry.setAttribute('normal', new THREE.BufferAttribute(Float32Array.from(normals), 3));
-    this.material = cloudMaterial(this.surface.count);
+    const {spacing, count} = this.surface;
+    // Points that touch; three.js leaves the angle of view out of their size.
+    this.material = cloudMaterial(
+        spacing > 0 ? 6.5 * spacing / this.view.radius : 4.5 / Math.sqrt(count));
     this.body = new THREE.Points(this.geometry, this.material);
   }
 

@@ -3,6 +3,7 @@
 class SurfaceData {
   constructor(data) {
     this.name = data.name;
+    this.spacing = data.spacing;
     this.points = pointsOf(data.points);
     this.count = this.points.length / 3;
     this.faces = numbersOf(data.faces);

@@ -80,7 +80,7 @@ class View {
     const isNarrow = canvas.clientWidth < 640;
     const columns = isNarrow ? 1 : Math.min(shown, 3);
     const rows = Math.ceil(shown / columns);
-    const each = Math.min(560, Math.max(220, canvas.clientWidth / columns * (isNarrow ? 0.7 : 0.95)));
+    const each = Math.min(560, Math.max(220, canvas.clientWidth / columns * (isNarrow || this.timeline ? 0.75 : 0.95)));
     canvas.style.height = Math.round(each * rows) + 'px';
     this.renderer.setSize(canvas.clientWidth, canvas.clientHeight, false);
     const box = this.boxes()[0];
