@@ -33,6 +33,9 @@ const OptionTable<SlamSettings>& SlamSettingsRows() {
       Row(&S::png, "png", "PNG to write: some frames of it as a picture.")
           .OnResume(ResumeRule::kFree)
           .File(),
+      Row(&S::mesh, "mesh", "Mesh to write: the map as a surface, with its colours (needs PCL).")
+          .OnResume(ResumeRule::kFree)
+          .File(),
       Row(&S::theme, "theme", "The ground of --png.").OnResume(ResumeRule::kFree),
       Row(&S::track,
           "track",

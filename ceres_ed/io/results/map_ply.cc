@@ -13,8 +13,11 @@ PlyProperty Column(const char* name, PlyType type, const std::vector<T>& values)
 
 }  // namespace
 
-Status WriteMapCloud(const std::string& path, const MapSnapshot& map) {
+Status WriteMapCloud(const std::string& path,
+                     const MapSnapshot& map,
+                     const std::vector<std::array<int, 3>>& triangles) {
   PointCloud cloud;
+  cloud.triangles = triangles;
   cloud.points = map.points;
   cloud.normals = map.normals;
   CloudWriteOptions options;

@@ -34,9 +34,11 @@ struct MapSnapshot {
   std::size_t size() const { return points.size(); }
 };
 
-// Writes the map, in the map frame, with the properties id, birth_frame and weight. The error gives
-// the system's reason.
-Status WriteMapCloud(const std::string& path, const MapSnapshot& map);
+// Writes the map, in the map frame, with the properties id, birth_frame, weight, stability and
+// last_seen, and with `triangles` if there are any. The error gives the system's reason.
+Status WriteMapCloud(const std::string& path,
+                     const MapSnapshot& map,
+                     const std::vector<std::array<int, 3>>& triangles = {});
 
 }  // namespace ceres_ed
 

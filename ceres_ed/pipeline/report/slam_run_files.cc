@@ -156,8 +156,10 @@ void SlamRunFiles::ReadMap() {
         map.colors[i][c] =
             std::isfinite(part) ? static_cast<std::uint8_t>(std::clamp(part, 0.0, kMost)) : 0;
       }
-      if (map.colors[i] != Rgb{0, 0, 0}) parts_.has_color = true;
     }
+    // Without pictures all points have one grey.
+    parts_.has_color = MemberOf(run_.report, {"sequence", "color"}) == true &&
+                       MemberOf(run_.report, {"flags", "color"}) != false;
   }
 }
 

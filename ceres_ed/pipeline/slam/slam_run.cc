@@ -4,6 +4,7 @@
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/energies.h>
 #include <ceres_ed/pipeline/slam/challenge.h>
+#include <ceres_ed/pipeline/slam/map_mesh.h>
 #include <ceres_ed/pipeline/slam/slam_look.h>
 #include <ceres_ed/pipeline/slam/slam_output.h>
 #include <ceres_ed/pipeline/slam/slam_session.h>
@@ -73,7 +74,9 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   if (!sequence.ok()) return Outcome::BadInput(sequence.status());
   outcome = CheckOutputFolder(settings);
   if (!outcome.done()) return outcome;
-  if (Status status = PrepareSlamLook(settings); !status.ok()) return Outcome::BadInput(status);
+  Status prepared = PrepareSlamLook(settings);
+  if (prepared.ok() && !settings.mesh.empty()) prepared = PrepareMapMesh(settings.mesh);
+  if (!prepared.ok()) return Outcome::BadInput(prepared);
   observer->OnNote((*sequence)->description());
   WarningLog warnings(observer);
   for (const std::string& warning : IdlePluginWarnings(registry, energies)) {
@@ -103,6 +106,9 @@ Outcome RunSlam(const SlamSettings& settings, const Timer& clock, SlamObserver* 
   const bool has_result = outcome.done() || outcome.code == ExitCode::kStoppedEarly;
   if (has_result) {
     Status status = challenge->Write(settings.output, **sequence);
+    if (status.ok() && !settings.mesh.empty()) {
+      status = WriteMapMesh(settings.mesh, **slam, settings.options.growth.point_spacing);
+    }
     if (status.ok()) status = WriteSlamLook(settings);
     if (!status.ok()) return Outcome::BadInput(status);
   }
