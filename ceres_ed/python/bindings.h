@@ -21,6 +21,7 @@ void BindEvaluate(pybind11::module_& module);
 void BindSequence(pybind11::module_& module);
 void BindShapeStatistics(pybind11::module_& module);
 void BindFitReport(pybind11::module_& module);
+void BindRunReport(pybind11::module_& module);
 void BindTrackerOptions(pybind11::module_& module);
 void BindTracker(pybind11::module_& module);
 

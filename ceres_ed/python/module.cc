@@ -25,6 +25,7 @@ PYBIND11_MODULE(_core, module) {
   ceres_ed::python::BindEvaluate(module);
   ceres_ed::python::BindShapeStatistics(module);
   ceres_ed::python::BindFitReport(module);
+  ceres_ed::python::BindRunReport(module);
   ceres_ed::python::BindTracker(module);
   ceres_ed::python::BindSequence(module);
   module.def(

@@ -37,3 +37,20 @@ def test_what_cannot_be_written_is_an_error(result, plane, hill, tmp_path):
         result.report(tmp_path / "fit.html", truth=hill)
     with pytest.raises(OSError, match="none"):
         result.report(tmp_path / "none" / "fit.html")
+
+
+def test_finished_runs_of_tracking_have_a_page(run_app, tmp_path):
+    run_app("ed_simulate", "heart", f"--output={tmp_path / 'heart'}", "--frames=3", "--quiet")
+    run_app("ed_slam", tmp_path / "heart", f"--output={tmp_path / 'out'}", "--quiet")
+    ceres_ed.report(tmp_path / "out", html=tmp_path / "slam.html", png=tmp_path / "slam.png")
+    assert "distance to the true place" in (tmp_path / "slam.html").read_text()
+    assert (tmp_path / "slam.png").read_bytes().startswith(b"\x89PNG")
+    ceres_ed.report([tmp_path / "out", tmp_path / "out"], html=tmp_path / "both.html")
+    assert "2 runs compared" in (tmp_path / "both.html").read_text()
+
+
+def test_runs_that_cannot_be_shown_are_errors(tmp_path):
+    with pytest.raises(ValueError, match="neither html nor png"):
+        ceres_ed.report(tmp_path)
+    with pytest.raises(ValueError, match="report.json"):
+        ceres_ed.report(tmp_path, html=tmp_path / "page.html")

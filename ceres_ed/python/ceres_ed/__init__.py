@@ -19,7 +19,8 @@ from ._core import (
     FieldOptions, Finding, FitOptions, FitProgress, FitResult, Frame, FrameIterator, FrameReport,
     FrameSequence, Graph, GraphOptions, Landmarks, MapSnapshot, PointEnergy, SequenceOptions, ShapeChange, ShapeModel,
     SurfaceFitter, Tracker, TrackerOptions, Verdict, Warp, __version__, align_shapes, backend, compare_groups,
-    evaluate, evaluate_sequence, fit_shape_model, list_energies, load, measure_shape_model, save)
+    evaluate, evaluate_sequence, fit_shape_model, list_energies, load, measure_shape_model,
+    report, save)
 from ._signatures import fit, open_sequence
 
 __all__ = [
@@ -29,4 +30,5 @@ __all__ = [
     "MapSnapshot", "PointEnergy", "SequenceOptions",
     "ShapeChange", "ShapeModel", "SurfaceFitter", "Tracker", "TrackerOptions", "Verdict", "Warp", "__version__",
     "align_shapes", "backend", "compare_groups", "evaluate", "evaluate_sequence", "fit", "fit_cohort",
-    "fit_shape_model", "list_energies", "load", "measure_shape_model", "open_sequence", "save"]
+    "fit_shape_model", "list_energies", "load", "measure_shape_model", "open_sequence", "report",
+    "save"]
