@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace ceres_ed {
 namespace {
@@ -76,7 +77,11 @@ class ScenePainter {
   void DrawHeading(double* y);
   void DrawLegend(double y);
   void DrawNodeLegend(double x, double y);
-  void FillDisc(const Eigen::Vector2d& at, double radius, const Rgb& color);
+  // Fills the pixels of a disc that are in a part of the picture.
+  void FillDisc(const Eigen::Vector2d& at,
+                double radius,
+                const Rgb& color,
+                const Eigen::AlignedBox2i& inside);
   void Write(const std::string& text, double x, double y, double size, const Rgb& color) {
     DrawText(text, x, y, size, color, &picture_);
   }
@@ -208,18 +213,24 @@ void ScenePainter::DrawPhoto(const ViewPicture& photo, int left, int top, int wi
     }
   }
   const double radius = 0.16 * text_;
+  const Eigen::AlignedBox2i inside(Eigen::Vector2i(left, top),
+                                   Eigen::Vector2i(left + width - 1, top + height - 1));
   for (const PictureMark& mark : photo.marks) {
     const Eigen::Vector2d at = mark.pixel / scale + Eigen::Vector2d(left, top);
-    FillDisc(at, 1.6 * radius, kMarkRim);
-    FillDisc(at, radius, kMarkColor);
+    FillDisc(at, 1.6 * radius, kMarkRim, inside);
+    FillDisc(at, radius, kMarkColor, inside);
   }
 }
 
-void ScenePainter::FillDisc(const Eigen::Vector2d& at, double radius, const Rgb& color) {
+void ScenePainter::FillDisc(const Eigen::Vector2d& at,
+                            double radius,
+                            const Rgb& color,
+                            const Eigen::AlignedBox2i& inside) {
   for (int v = static_cast<int>(at.y() - radius); v <= at.y() + radius + 1.0; ++v) {
     for (int u = static_cast<int>(at.x() - radius); u <= at.x() + radius + 1.0; ++u) {
       const bool is_inside = (Eigen::Vector2d(u, v) - at).norm() <= radius;
-      if (is_inside && picture_.Contains(u, v)) picture_(u, v) = color;
+      if (!is_inside || !inside.contains(Eigen::Vector2i(u, v))) continue;
+      if (picture_.Contains(u, v)) picture_(u, v) = color;
     }
   }
 }
@@ -234,7 +245,9 @@ void ScenePainter::DrawNodeLegend(double x, double y) {
         std::tuple(NodeKind::kInner, "inside", kOtherNodeColor)}) {
     if (!known(kind)) continue;
     const double radius = 0.32 * text_;
-    FillDisc({x + radius, y + 0.35 * text_ + radius}, radius, color);
+    const Eigen::AlignedBox2i everywhere(
+        Eigen::Vector2i(0, 0), Eigen::Vector2i(picture_.width() - 1, picture_.height() - 1));
+    FillDisc({x + radius, y + 0.35 * text_ + radius}, radius, color, everywhere);
     Write(name, x + 0.9 * text_, y + text_, text_, colors_.text);
     x += 1.6 * text_ + TextWidth(name, text_);
   }
