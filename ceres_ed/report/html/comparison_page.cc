@@ -131,6 +131,7 @@ std::string ComparisonPage(const std::vector<ComparedRun>& runs,
   }
   page.Table(table);
   std::vector<std::pair<std::string, const ordered_json*>> reports;
+  reports.reserve(runs.size());
   for (const ComparedRun& run : runs) reports.emplace_back(run.name, &run.report);
   AddFlagsThatDiffer(reports, &page);
   page.Section("View");
