@@ -35,7 +35,7 @@ std::string EncodePng(const ColorImage& picture) {
 }
 
 std::string EncodeJpeg(const ColorImage& picture) {
-  constexpr int kQuality = 80;
+  constexpr int kQuality = 75;
   std::string bytes;
   if (picture.empty()) return bytes;
   stbi_write_jpg_to_func(Append,
