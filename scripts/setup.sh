@@ -55,7 +55,7 @@ add_list() {
       add libinsighttoolkit5-dev
       add ccache make pkg-config libopenblas-dev libgtest-dev libgmock-dev python3-pytest python3-pil mypy \
         python3-build python3-pip python3-setuptools python3-venv python3-wheel chromium chromium-driver \
-        python3-selenium
+        python3-selenium firefox-esr xvfb
       # Engines on which cohorts are run.
       add parallel snakemake
       ;;
