@@ -16,6 +16,14 @@ namespace {
 // The smallest damping, relative to the mean; it applies to parameters without curvature.
 constexpr double kMinRelativeDiagonal = 1e-6;
 
+// The relative residual at which an iterative step may end: the first one, and the bounds of those
+// that follow.
+constexpr double kFirstTolerance = 0.1;
+constexpr double kSmallestTolerance = 1e-4;
+
+// With more variable nodes than this, kAuto solves by conjugate gradients.
+constexpr int kManyNodes = 20000;
+
 // A copy of the variable parameters, to undo a step. Its cost does not depend on the rest of the
 // state.
 class SavedUnknowns {
@@ -50,14 +58,14 @@ class Minimizer {
             const NormalEquations& equations,
             const BlockStructure& structure,
             const SolverOptions& options,
-            BlockCholesky* cholesky,
+            StepSolver* step_solver,
             std::vector<double>* values,
             DeformationState* state)
       : builder_(builder),
         equations_(equations),
         structure_(structure),
         options_(options),
-        cholesky_(cholesky),
+        step_solver_(step_solver),
         values_(*values),
         state_(state),
         region_(options.initial_trust_region_radius) {}
@@ -68,6 +76,7 @@ class Minimizer {
   enum class Step { kAccepted, kRejected, kInvalid, kConverged };
 
   bool EvaluateEquations();
+  bool SolveForStep(const Eigen::VectorXd& damping, Eigen::VectorXd* delta);
   Step TakeStep(bool last, bool explain);
   bool IsDone(int valid_steps, SolveSummary* summary) const;
 
@@ -75,7 +84,7 @@ class Minimizer {
   const NormalEquations& equations_;
   const BlockStructure& structure_;
   const SolverOptions& options_;
-  BlockCholesky* cholesky_;
+  StepSolver* step_solver_;
   std::vector<double>& values_;
   DeformationState* state_;
   const Timer timer_;
@@ -83,6 +92,9 @@ class Minimizer {
   double cost_ = 0.0;
   Eigen::VectorXd gradient_;
   Eigen::VectorXd diagonal_;
+  // The tolerance of the last step, and the scaled gradient for which it was chosen.
+  double tolerance_ = kFirstTolerance;
+  double previous_gradient_ = 0.0;
   SavedUnknowns before_;
   // The reason why the last step could not be evaluated, if an explanation was requested.
   std::string fault_;
@@ -97,6 +109,30 @@ bool Minimizer::EvaluateEquations() {
   return gradient_.allFinite();
 }
 
+// Solves the damped equations. An iterative solver need not be more exact than the linearisation:
+// the tolerance follows the decrease of the gradient (Eisenstat and Walker 1996, choice 2), in the
+// units of the parameters.
+bool Minimizer::SolveForStep(const Eigen::VectorXd& damping, Eigen::VectorXd* delta) {
+  const Eigen::VectorXd rhs = -gradient_;
+  const int num_rows = structure_.num_primal_rows();
+  const double norm =
+      std::sqrt(rhs.head(num_rows).cwiseAbs2().cwiseQuotient(damping.head(num_rows)).sum() /
+                region_.radius());
+  if (previous_gradient_ > 0.0) {
+    const double ratio = norm / previous_gradient_;
+    tolerance_ = std::clamp(0.9 * ratio * ratio, kSmallestTolerance, kFirstTolerance);
+  }
+  previous_gradient_ = norm;
+  StepSystem system;
+  system.values = values_.data();
+  system.damping = &damping;
+  system.rhs = &rhs;
+  system.tolerance = tolerance_;
+  system.num_threads = options_.num_threads;
+  if (options_.should_stop) system.should_stop = &options_.should_stop;
+  return step_solver_->Solve(system, delta);
+}
+
 // Computes the step that minimises the damped quadratic model, and takes it if it decreases the
 // cost enough. The equations at the new state are evaluated unless this is the last step. With
 // `explain`, the reason for an invalid step is determined.
@@ -106,11 +142,12 @@ Minimizer::Step Minimizer::TakeStep(bool last, bool explain) {
   const double floor = std::max(kMinRelativeDiagonal * diagonal_.head(num_rows).mean(), 1e-300);
   Eigen::VectorXd damping = Eigen::VectorXd::Zero(structure_.num_rows());
   damping.head(num_rows) = diagonal_.head(num_rows).cwiseMax(floor) / region_.radius();
-  if (!cholesky_->Factorize(values_.data(), damping, options_.num_threads)) return Step::kInvalid;
-  Eigen::VectorXd delta = cholesky_->Solve(-gradient_);
+  Eigen::VectorXd delta;
+  if (!SolveForStep(damping, &delta)) return Step::kInvalid;
   delta.tail(structure_.num_rows() - num_rows).setZero();
   if (!delta.allFinite()) return Step::kInvalid;
-  // The decrease that the quadratic model predicts for this step.
+  // The decrease that the quadratic model predicts for this step. It also holds for an inexact one
+  // (StepSolver::Solve()).
   const double model_decrease =
       0.5 * (delta.dot(damping.cwiseProduct(delta)) - gradient_.dot(delta));
   if (!(model_decrease > 0.0)) return Step::kInvalid;
@@ -211,7 +248,19 @@ void Minimizer::Run(LevelSummary* level, SolveSummary* summary) {
 
 }  // namespace
 
-void BlockLevelSolver::UpdateStructure(const ProblemConfig& config) {
+std::unique_ptr<StepSolver> BlockLevelSolver::MakeStepSolver(const DeformationGraph& graph) {
+  const std::vector<int>& nodes = equations_.variable_nodes();
+  const bool iterative =
+      linear_solver_ == LinearSolver::kPcg ||
+      (linear_solver_ == LinearSolver::kAuto && static_cast<int>(nodes.size()) >= kManyNodes);
+  if (!iterative) return MakeFactorStep(*structure_, &memory_);
+  std::vector<Eigen::Vector3d> positions;
+  positions.reserve(nodes.size());
+  for (const int node : nodes) positions.push_back(graph.position(node));
+  return MakeGradientStep(*structure_, positions, preconditioner_);
+}
+
+void BlockLevelSolver::UpdateStructure(const ProblemBuilder& builder, const ProblemConfig& config) {
   const std::vector<int> sizes = equations_.BlockSizes();
   const bool same_unknowns =
       structure_ != nullptr && variable_nodes_ == config.variable_nodes && sizes_ == sizes;
@@ -222,11 +271,11 @@ void BlockLevelSolver::UpdateStructure(const ProblemConfig& config) {
   pairs_.insert(pairs_.end(), pairs.begin(), pairs.end());
   variable_nodes_ = config.variable_nodes;
   sizes_ = sizes;
-  // The factor refers to the structure, so it is destroyed first.
-  cholesky_.reset();
+  // The step solver refers to the structure, so it is destroyed first.
+  step_solver_.reset();
   structure_ = std::make_unique<BlockStructure>(sizes_, pairs_, equations_.num_dual());
   pairs_ = structure_->Pairs();
-  cholesky_ = std::make_unique<BlockCholesky>(*structure_, /*num_trailing=*/0, &memory_);
+  step_solver_ = MakeStepSolver(builder.graph());
   CHECK(equations_.SetStructure(structure_.get()));
 }
 
@@ -250,11 +299,11 @@ bool BlockLevelSolver::Solve(const ProblemBuilder& builder,
     summary->levels.push_back(level);
     return true;
   }
-  UpdateStructure(config);
+  UpdateStructure(builder, config);
   level.build_time_s = timer.Restart();
   SavedUnknowns before;
   before.Save(equations_, *state);
-  Minimizer(builder, equations_, *structure_, options, cholesky_.get(), &values_, state)
+  Minimizer(builder, equations_, *structure_, options, step_solver_.get(), &values_, state)
       .Run(&level, summary);
   level.solve_time_s = timer.Seconds();
   summary->levels.push_back(level);

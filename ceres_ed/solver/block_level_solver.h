@@ -2,10 +2,11 @@
 #ifndef CERES_ED_SOLVER_BLOCK_LEVEL_SOLVER_H_
 #define CERES_ED_SOLVER_BLOCK_LEVEL_SOLVER_H_
 
-#include <ceres_ed/linear_algebra/block_cholesky.h>
 #include <ceres_ed/linear_algebra/block_structure.h>
+#include <ceres_ed/linear_algebra/double_buffer.h>
 #include <ceres_ed/solver/level_solver.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
+#include <ceres_ed/solver/steps/step_solver.h>
 
 #include <memory>
 #include <vector>
@@ -13,11 +14,15 @@
 namespace ceres_ed {
 
 // The Levenberg-Marquardt method with the acceptance rules and tolerances of Ceres, on the same
-// cost functions and losses. It keeps the block structure and the symbolic factor from one solve to
-// the next: as long as the variable nodes are the same, pairs of blocks are only added to the
+// cost functions and losses. It keeps the block structure and what solves for a step, such as the
+// symbolic factor, from one solve to the next: as long as the variable nodes are the same, pairs of blocks are only added to the
 // structure, so that new correspondences rarely require a new analysis.
 class BlockLevelSolver final : public LevelSolver {
  public:
+  // `linear_solver` is kBlock, kPcg or kAuto.
+  BlockLevelSolver(LinearSolver linear_solver, PreconditionerKind preconditioner)
+      : linear_solver_(linear_solver), preconditioner_(preconditioner) {}
+
   bool Solve(const ProblemBuilder& builder,
              const ProblemConfig& config,
              const SolverOptions& options,
@@ -25,8 +30,12 @@ class BlockLevelSolver final : public LevelSolver {
              SolveSummary* summary) override;
 
  private:
-  // Ensures that the structure and the factor fit the equations.
-  void UpdateStructure(const ProblemConfig& config);
+  // Ensures that the structure and the step solver fit the equations.
+  void UpdateStructure(const ProblemBuilder& builder, const ProblemConfig& config);
+  std::unique_ptr<StepSolver> MakeStepSolver(const DeformationGraph& graph);
+
+  const LinearSolver linear_solver_;
+  const PreconditionerKind preconditioner_;
 
   // Objects of the last problem, which are kept to reuse their memory.
   NormalEquations equations_;
@@ -36,7 +45,7 @@ class BlockLevelSolver final : public LevelSolver {
   std::vector<int> sizes_;
   std::vector<BlockPair> pairs_;
   std::unique_ptr<BlockStructure> structure_;
-  std::unique_ptr<BlockCholesky> cholesky_;
+  std::unique_ptr<StepSolver> step_solver_;
 };
 
 }  // namespace ceres_ed

@@ -27,8 +27,10 @@ class LevelSolver {
                      SolveSummary* summary) = 0;
 };
 
-// Returns the minimiser that uses `linear_solver`.
-std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver);
+// Returns the minimiser that uses `linear_solver`, with `preconditioner` where it is iterative.
+std::unique_ptr<LevelSolver> MakeLevelSolver(
+    LinearSolver linear_solver,
+    PreconditionerKind preconditioner = PreconditionerKind::kTwoLevel);
 
 // Sets the status to failed, with a reason: the residual that cannot be evaluated at `state`, or
 // `otherwise` if there is none.

@@ -56,7 +56,10 @@ const OptionTable<StrategyOptions>& StrategyOptions::Rows() {
           .OnResume(ResumeRule::kNoted),
       Row(&O::linear_solver,
           "linear_solver",
-          "block is the library's own solver; ceres is ceres::Solve, the reference."),
+          "block is the library's own solver; pcg solves the same equations by conjugate "
+          "gradients, for large graphs; auto chooses by size; ceres is ceres::Solve, the "
+          "reference."),
+      Row(&O::preconditioner, "preconditioner", "What makes the conjugate gradients converge."),
       Row(&O::relinearize_above,
           "relinearize_above",
           "marginal eliminates a node anew when an entry of its matrix changes by more.")

@@ -19,10 +19,37 @@ enum class LinearSolver {
   // Block normal equations whose symbolic factor is kept (block_level_solver.h): the same minimum
   // in less time.
   kBlock,
+  // The same normal equations, solved by preconditioned conjugate gradients, without a factor: less
+  // memory, and less time for large graphs.
+  kPcg,
+  // kBlock or kPcg, by the number of variable nodes.
+  kAuto,
+  // ceres::Solve with CGNR, the conjugate gradients of Ceres.
+  kCeresCgnr,
 };
 
-constexpr std::array<NamedValue<LinearSolver>, 2> NamesOf(LinearSolver) {
-  return {{{"ceres", LinearSolver::kCeres}, {"block", LinearSolver::kBlock}}};
+constexpr std::array<NamedValue<LinearSolver>, 5> NamesOf(LinearSolver) {
+  return {{{"ceres", LinearSolver::kCeres},
+           {"block", LinearSolver::kBlock},
+           {"pcg", LinearSolver::kPcg},
+           {"auto", LinearSolver::kAuto},
+           {"ceres_cgnr", LinearSolver::kCeresCgnr}}};
+}
+
+// What makes the conjugate gradients of kPcg converge.
+enum class PreconditionerKind {
+  // Smooth motions are solved for on a coarse graph, the rest node by node.
+  kTwoLevel,
+  // The 12 x 12 blocks of the nodes, and the camera with its border.
+  kBlockJacobi,
+  // An incomplete factor without fill.
+  kIncompleteCholesky,
+};
+
+constexpr std::array<NamedValue<PreconditionerKind>, 3> NamesOf(PreconditionerKind) {
+  return {{{"two_level", PreconditionerKind::kTwoLevel},
+           {"block_jacobi", PreconditionerKind::kBlockJacobi},
+           {"incomplete_cholesky", PreconditionerKind::kIncompleteCholesky}}};
 }
 
 // Limits and tolerances of one solve. With the defaults a problem in normalised units converges.
@@ -122,6 +149,8 @@ struct StrategyOptions {
   // For kTwoLevel: whether the edges of the boundary are kept or cut; default kKeep.
   BoundaryEdges boundary_edges = BoundaryEdges::kKeep;
   LinearSolver linear_solver = LinearSolver::kBlock;
+  // For kPcg.
+  PreconditionerKind preconditioner = PreconditionerKind::kTwoLevel;
   // For kMarginal: if an entry of A_j of a PI node changes by more than this, an elimination is not
   // used again; without unit, >= 0, default 0.003. The value affects the number and the cost of the
   // steps, not the minimum. With values much above the default, the soft modes of a large hidden

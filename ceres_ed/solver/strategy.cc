@@ -12,12 +12,16 @@ int SolveSummary::TotalIterations() const {
   return total;
 }
 
-std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver) {
+std::unique_ptr<LevelSolver> MakeLevelSolver(LinearSolver linear_solver,
+                                             PreconditionerKind preconditioner) {
   switch (linear_solver) {
     case LinearSolver::kCeres:
-      return std::make_unique<CeresLevelSolver>();
+    case LinearSolver::kCeresCgnr:
+      return std::make_unique<CeresLevelSolver>(linear_solver == LinearSolver::kCeresCgnr);
     case LinearSolver::kBlock:
-      return std::make_unique<BlockLevelSolver>();
+    case LinearSolver::kPcg:
+    case LinearSolver::kAuto:
+      return std::make_unique<BlockLevelSolver>(linear_solver, preconditioner);
   }
   LOG(FATAL) << "unknown linear solver";
 }

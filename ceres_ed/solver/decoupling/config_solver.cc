@@ -36,7 +36,7 @@ void KeepNodesOfCamera(const ProblemBuilder& builder, ProblemConfig* config) {
 
 ConfigSolver::ConfigSolver(const StrategyOptions& options)
     : relinearize_above_(options.relinearize_above),
-      solver_(MakeLevelSolver(options.linear_solver)) {}
+      solver_(MakeLevelSolver(options.linear_solver, options.preconditioner)) {}
 
 bool ConfigSolver::SolveVariable(const ProblemBuilder& builder,
                                  const ProblemConfig& config,
