@@ -8,7 +8,7 @@ namespace ceres_ed {
 namespace {
 
 // The number of coarse nodes that a node follows.
-constexpr int kMaxParts = 4;
+constexpr int kMaxParts = 3;
 
 // Visits the nodes that are at most `rings` neighbours away from a node, ring by ring.
 class RingWalk {

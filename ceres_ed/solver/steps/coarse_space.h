@@ -17,7 +17,7 @@ namespace ceres_ed {
 // twice that number that are nearest to it, by the weights of the warp (Sumner et al. 2007).
 // Neighbours are nodes that share an entry of the matrix, so that two sheets that only touch do not
 // mix. Only the pattern of the matrix is used.
-inline constexpr int kCoarseRings = 3;
+inline constexpr int kCoarseRings = 6;
 AffineProlongation MakeCoarseSpace(const PrimalMatrix& matrix,
                                    const std::vector<Eigen::Vector3d>& positions);
 
