@@ -50,7 +50,7 @@ FIT_FLAGS = {
     "max_angle_deg": ["1", "45", "90", "180"],
     "threads": ["1", "2", "3"],
     "time_limit_s": ["0.001", "0.1", "10"],
-    "linear_solver": ["block", "ceres"],
+    "linear_solver": ["block", "ceres", "pcg", "auto", "ceres_cgnr"],
     "energy": ["point_to_point", "point_to_plane:loss=huber", "photometric", "point_to_point:weight=0"],
 }
 SLAM_FLAGS = {

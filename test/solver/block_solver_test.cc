@@ -1,5 +1,6 @@
 // Compares the block solver with Ceres, and its parts with dense linear algebra.
 #include <ceres_ed/solver/normal_equations/loss_correction.h>
+#include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/solver/strategy.h>
 #include <ceres_ed/testing/test_problem.h>
 
@@ -9,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
+#include <test/problem/strip_builder.h>
 #include <test/solver/assembly.h>
 
 namespace ceres_ed {
@@ -69,6 +71,88 @@ TEST(BlockSolver, ReachesTheMinimumOfCeres) {
       }
     }
   }
+}
+
+// The forcing terms are those of the solver: nothing is asked of it but the tolerances of a solve.
+TEST(GradientSolver, ReachesTheMinimumOfTheFactorWithEveryPreconditioner) {
+  for (const bool has_camera : {false, true}) {
+    const TestProblem problem = MakeProblem(has_camera);
+    const auto builder = MakeBuilder(problem, {LossType::kHuber, 0.3});
+    for (const SolveMode mode : {SolveMode::kBatch, SolveMode::kTwoLevel, SolveMode::kMarginal}) {
+      StrategyOptions options;
+      options.mode = mode;
+      DeformationState expected(problem.graph.num_nodes());
+      const double energy =
+          MakeStrategy(options)->Solve(*builder, Converging(), &expected).final_energy;
+      options.linear_solver = LinearSolver::kPcg;
+      for (const auto& [name, preconditioner] : NamesOf(PreconditionerKind())) {
+        options.preconditioner = preconditioner;
+        DeformationState state(problem.graph.num_nodes());
+        const SolveSummary summary = MakeStrategy(options)->Solve(*builder, Converging(), &state);
+        ASSERT_TRUE(summary.IsUsable()) << summary.message;
+        EXPECT_NEAR(summary.final_energy, energy, 1e-8 * energy)
+            << name << ' ' << NameOf(mode) << (has_camera ? " with" : " without") << " camera";
+      }
+    }
+  }
+}
+
+TEST(GradientSolver, HasTheSameBitsAtAnyNumberOfThreads) {
+  const TestProblem problem = MakeProblem(/*has_camera=*/true);
+  const auto builder = MakeBuilder(problem, {});
+  StrategyOptions options;
+  options.linear_solver = LinearSolver::kPcg;
+  for (const auto& [name, preconditioner] : NamesOf(PreconditionerKind())) {
+    options.preconditioner = preconditioner;
+    std::vector<std::vector<double>> results;
+    for (const int num_threads : {1, 3}) {
+      SolverOptions solver_options;
+      solver_options.num_threads = num_threads;
+      DeformationState state(problem.graph.num_nodes());
+      ASSERT_TRUE(MakeStrategy(options)->Solve(*builder, solver_options, &state).IsUsable());
+      results.push_back(AllParameters(state));
+    }
+    EXPECT_EQ(results[0], results[1]) << name;
+  }
+}
+
+// With points on few nodes they keep dual unknowns, which conjugate gradients never form.
+TEST(GradientSolver, SolvesWithDualUnknowns) {
+  TestProblemOptions problem_options;
+  problem_options.columns = 14;
+  problem_options.rows = 9;
+  problem_options.observed_columns = 1;
+  problem_options.target_deviation = 0.2;
+  const TestProblem problem = MakeTestProblem(problem_options);
+  const auto builder = MakeBuilder(problem, {});
+  ProblemConfig config;
+  config.variable_nodes.assign(problem.graph.num_nodes(), 1);
+  NormalEquations equations;
+  equations.Build(*builder, config, DualResiduals::kWhereTheyPay);
+  ASSERT_GT(equations.num_dual(), 0) << "the problem is not one of few points";
+  StrategyOptions options;
+  DeformationState expected(problem.graph.num_nodes());
+  const double energy =
+      MakeStrategy(options)->Solve(*builder, Converging(), &expected).final_energy;
+  options.linear_solver = LinearSolver::kPcg;
+  DeformationState state(problem.graph.num_nodes());
+  const SolveSummary summary = MakeStrategy(options)->Solve(*builder, Converging(), &state);
+  ASSERT_TRUE(summary.IsUsable()) << summary.message;
+  EXPECT_NEAR(summary.final_energy, energy, 1e-8 * energy);
+}
+
+TEST(CeresCgnr, ReachesTheMinimumOfTheFactor) {
+  const TestProblem problem = MakeProblem(/*has_camera=*/false);
+  const auto builder = MakeBuilder(problem, {});
+  std::vector<double> energies;
+  for (const LinearSolver solver : {LinearSolver::kCeres, LinearSolver::kCeresCgnr}) {
+    StrategyOptions options;
+    options.linear_solver = solver;
+    DeformationState state(problem.graph.num_nodes());
+    energies.push_back(
+        MakeStrategy(options)->Solve(*builder, Converging(), &state).final_energy);
+  }
+  EXPECT_NEAR(energies[1], energies[0], 1e-8 * energies[0]);
 }
 
 // One object solves a changing problem: new correspondences, other variable nodes, a larger graph.

@@ -9,6 +9,9 @@
 namespace ceres_ed {
 namespace {
 
+// How many iterations pass between two questions whether to stop.
+constexpr int kStopInterval = 32;
+
 // Loops over vectors, in pieces that do not depend on the number of threads.
 class Vectors {
  public:
@@ -70,8 +73,10 @@ BlockGradientSummary SolveByBlockGradients(const PrimalMatrix& A,
   const double start = energy;
   const double goal = options.tolerance * options.tolerance * start;
   while (energy > goal && summary.iterations < options.max_iterations) {
-    if (options.should_stop && options.should_stop()) break;
     ++summary.iterations;
+    if (summary.iterations % kStopInterval == 0 && options.should_stop && options.should_stop()) {
+      break;
+    }
     A.Multiply(direction, num_threads, &product);
     const double curvature = vectors.Dot(direction, product);
     if (!(curvature > 0.0) || !std::isfinite(curvature)) {

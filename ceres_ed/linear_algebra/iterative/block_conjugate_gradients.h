@@ -19,7 +19,7 @@ struct BlockGradientOptions {
   // And after this number of products with the matrix, >= 1.
   int max_iterations = 1000;
   int num_threads = 1;
-  // Called in every iteration; if it returns true, the solution so far is the result.
+  // Called every 32 iterations; if it returns true, the solution so far is the result.
   std::function<bool()> should_stop;
 };
 
