@@ -15,8 +15,9 @@ namespace ceres_ed {
 
 // The Levenberg-Marquardt method with the acceptance rules and tolerances of Ceres, on the same
 // cost functions and losses. It keeps the block structure and what solves for a step, such as the
-// symbolic factor, from one solve to the next: as long as the variable nodes are the same, pairs of blocks are only added to the
-// structure, so that new correspondences rarely require a new analysis.
+// symbolic factor, from one solve to the next: as long as the variable nodes are the same, pairs of
+// blocks are only added to the structure, so that new correspondences rarely require a new
+// analysis.
 class BlockLevelSolver final : public LevelSolver {
  public:
   // `linear_solver` is kBlock, kPcg or kAuto.

@@ -29,8 +29,7 @@ class LevelSolver {
 
 // Returns the minimiser that uses `linear_solver`, with `preconditioner` where it is iterative.
 std::unique_ptr<LevelSolver> MakeLevelSolver(
-    LinearSolver linear_solver,
-    PreconditionerKind preconditioner = PreconditionerKind::kTwoLevel);
+    LinearSolver linear_solver, PreconditionerKind preconditioner = PreconditionerKind::kTwoLevel);
 
 // Sets the status to failed, with a reason: the residual that cannot be evaluated at `state`, or
 // `otherwise` if there is none.

@@ -8,6 +8,7 @@
 // and analysis, of one solve, and the megabytes of the factor.
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/linear_algebra/block_cholesky.h>
+#include <ceres_ed/linear_algebra/linear_algebra_backend.h>
 #include <ceres_ed/problem/problem_builder.h>
 #include <ceres_ed/solver/normal_equations/normal_equations.h>
 #include <ceres_ed/testing/residual_collection.h>
@@ -73,8 +74,8 @@ struct NormalMatrix {
     CHECK(equations.SetStructure(structure.get()));
     double cost = 0.0;
     Eigen::VectorXd gradient;
-    CHECK(equations.Evaluate(
-        DeformationState(test.graph.num_nodes()), 1, &cost, &values, &gradient));
+    CHECK(
+        equations.Evaluate(DeformationState(test.graph.num_nodes()), 1, &cost, &values, &gradient));
     diagonal = kDamping * structure->Diagonal(values);
     diagonal.tail(structure->num_rows() - structure->num_primal_rows()).setZero();
     rhs = -gradient;
@@ -135,10 +136,12 @@ void Multifrontal(benchmark::State& state, const Problem& problem) {
 void Cholmod(benchmark::State& state, const Problem& problem) {
   const NormalMatrix matrix(problem, DualResiduals::kNever);
   Eigen::SparseMatrix<double> lower = matrix.Lower();
+  // With two threads, OpenBLAS and OpenMP have those that they take by themselves.
+  const std::unique_ptr<ScopedSerialLinearAlgebra> serial =
+      state.range(0) == 1 ? std::make_unique<ScopedSerialLinearAlgebra>() : nullptr;
   cholmod_common common;
   cholmod_start(&common);
   common.supernodal = CHOLMOD_SUPERNODAL;
-  common.nthreads_max = static_cast<int>(state.range(0));
   cholmod_sparse sparse{};
   sparse.nrow = lower.rows();
   sparse.ncol = lower.cols();

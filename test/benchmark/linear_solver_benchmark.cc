@@ -11,13 +11,12 @@
 #include <ceres_ed/testing/residual_collection.h>
 #include <ceres_ed/testing/test_problem.h>
 
-#include <sys/resource.h>
-
 #include <array>
 #include <cmath>
 
 #include <benchmark/benchmark.h>
 #include <glog/logging.h>
+#include <sys/resource.h>
 
 namespace ceres_ed {
 namespace {
@@ -75,7 +74,8 @@ TestProblem MakeBody(const Body& body, int side) {
   }
   for (int u = 0; u < cells; ++u) {
     for (int v = 0; v < cells; ++v) {
-      const std::array<int, 4> nodes{node(u, v), node(u + 1, v), node(u, v + 1), node(u + 1, v + 1)};
+      const std::array<int, 4> nodes{
+          node(u, v), node(u + 1, v), node(u, v + 1), node(u + 1, v + 1)};
       const std::array<double, 4> weights{0.28, 0.22, 0.27, 0.23};
       problem.skinning.Add(nodes.data(), weights.data(), 4);
       problem.points.push_back(body.surface(u + 0.45, v + 0.5, side));

@@ -149,8 +149,7 @@ TEST(CeresCgnr, ReachesTheMinimumOfTheFactor) {
     StrategyOptions options;
     options.linear_solver = solver;
     DeformationState state(problem.graph.num_nodes());
-    energies.push_back(
-        MakeStrategy(options)->Solve(*builder, Converging(), &state).final_energy);
+    energies.push_back(MakeStrategy(options)->Solve(*builder, Converging(), &state).final_energy);
   }
   EXPECT_NEAR(energies[1], energies[0], 1e-8 * energies[0]);
 }

@@ -39,9 +39,8 @@ class Vectors {
   }
 
   double Dot(const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
-    return Sum([&](int first, int count) {
-      return a.segment(first, count).dot(b.segment(first, count));
-    });
+    return Sum(
+        [&](int first, int count) { return a.segment(first, count).dot(b.segment(first, count)); });
   }
 
  private:

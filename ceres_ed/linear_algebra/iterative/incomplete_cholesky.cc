@@ -22,8 +22,8 @@ IncompleteCholesky::IncompleteCholesky(const PrimalMatrix& matrix) : matrix_(mat
     for (; end < structure.column_begin(column + 1) && !structure.is_dual(structure.entry_row(end));
          ++end) {
       places_[end] = size;
-      size +=
-          static_cast<std::size_t>(structure.size(structure.entry_row(end))) * structure.size(column);
+      size += static_cast<std::size_t>(structure.size(structure.entry_row(end))) *
+              structure.size(column);
     }
     ends_.push_back(end);
   }
@@ -32,9 +32,8 @@ IncompleteCholesky::IncompleteCholesky(const PrimalMatrix& matrix) : matrix_(mat
 
 IncompleteCholesky::Block IncompleteCholesky::At(int entry, int column) {
   const BlockStructure& structure = matrix_.structure();
-  return {&values_[places_[entry]],
-          structure.size(structure.entry_row(entry)),
-          structure.size(column)};
+  return {
+      &values_[places_[entry]], structure.size(structure.entry_row(entry)), structure.size(column)};
 }
 
 void IncompleteCholesky::Take(double scale) {

@@ -26,8 +26,8 @@ inline void AddTransposedProduct(
   }
 }
 
-// Four numbers that are multiplied at once, at the address of any double. (A deduced type would lose
-// the alignment.)
+// Four numbers that are multiplied at once, at the address of any double. (A deduced type would
+// lose the alignment.)
 typedef double Four __attribute__((vector_size(32), aligned(8), may_alias));
 
 // The same for blocks of kSplitBlockSize rows and columns, most of which are those of two nodes.

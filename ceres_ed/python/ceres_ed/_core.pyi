@@ -313,7 +313,8 @@ class FitOptions:
     mode: Mode
     rings: int
     boundary: Boundary
-    linear_solver: LinearSolver
+    linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"]
+    preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"]
     relinearize_above: float
     marginal_reach: int
     graph_sampling: Sampling
@@ -377,9 +378,11 @@ class FitOptions:
     time_limit_s: float
     def __init__(
             self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
-            linear_solver: LinearSolver = ..., relinearize_above: float = ...,
-            marginal_reach: Union[int, Literal["all"]] = ..., graph_sampling: Sampling = ...,
-            graph_distance: Distance = ..., node_spacing: Union[float, Literal["automatic"]] = ...,
+            linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
+            preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
+            relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
+            graph_sampling: Sampling = ..., graph_distance: Distance = ...,
+            node_spacing: Union[float, Literal["automatic"]] = ...,
             target_nodes: Union[int, Literal["automatic"]] = ..., graph_auto_spacing: float = ...,
             neighbors: int = ..., graph_edges: EdgeRule = ..., graph_edges_per_node: int = ...,
             graph_min_component_points: int = ..., graph_join_pieces: bool = ...,
@@ -520,7 +523,9 @@ class SurfaceFitter:
     def __init__(
             self, source: Surface, options: Optional[FitOptions] = None, *,
             energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
-            rings: int = ..., boundary: Boundary = ..., linear_solver: LinearSolver = ...,
+            rings: int = ..., boundary: Boundary = ...,
+            linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
+            preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
             relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
             graph_sampling: Sampling = ..., graph_distance: Distance = ...,
             node_spacing: Union[float, Literal["automatic"]] = ...,
@@ -650,7 +655,8 @@ class TrackerOptions:
     mode: Mode
     rings: int
     boundary: Boundary
-    linear_solver: LinearSolver
+    linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"]
+    preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"]
     relinearize_above: float
     marginal_reach: int
     w_rot: float
@@ -699,13 +705,15 @@ class TrackerOptions:
     surface_max_slope_deg: float
     def __init__(
             self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
-            linear_solver: LinearSolver = ..., relinearize_above: float = ...,
-            marginal_reach: Union[int, Literal["all"]] = ..., w_rot: float = ...,
-            w_reg: float = ..., yield_strain: Union[float, Literal["never"]] = ...,
-            w_node_prior: float = ..., w_data: float = ..., w_feature: float = ...,
-            prior_rotation_deg: float = ..., prior_translation: float = ..., level2: LevelTwo = ...,
-            lazy_tolerance: float = ..., lazy_reach: int = ..., lazy_waves_per_frame: int = ...,
-            lazy_max_seeds: int = ..., camera: CameraMode = ..., rigid: bool = ...,
+            linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
+            preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
+            relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
+            w_rot: float = ..., w_reg: float = ...,
+            yield_strain: Union[float, Literal["never"]] = ..., w_node_prior: float = ...,
+            w_data: float = ..., w_feature: float = ..., prior_rotation_deg: float = ...,
+            prior_translation: float = ..., level2: LevelTwo = ..., lazy_tolerance: float = ...,
+            lazy_reach: int = ..., lazy_waves_per_frame: int = ..., lazy_max_seeds: int = ...,
+            camera: CameraMode = ..., rigid: bool = ...,
             node_spacing: Union[float, Literal["automatic"]] = ..., nodes_in_view: int = ...,
             neighbors: int = ..., features: bool = ..., rounds: int = ...,
             max_observations: int = ..., max_point_weight: float = ...,
@@ -806,7 +814,9 @@ class Tracker:
     def __init__(
             self, intrinsics: Camera, options: Optional[TrackerOptions] = None, *,
             energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
-            rings: int = ..., boundary: Boundary = ..., linear_solver: LinearSolver = ...,
+            rings: int = ..., boundary: Boundary = ...,
+            linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
+            preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
             relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
             w_rot: float = ..., w_reg: float = ...,
             yield_strain: Union[float, Literal["never"]] = ..., w_node_prior: float = ...,
@@ -920,9 +930,11 @@ def fit(
         target_landmarks: Optional[AnyLandmarks] = None,
         landmark_use: Literal["fit", "measure"] = "fit", mesh_space: MeshSpace = "auto",
         mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
-        linear_solver: LinearSolver = ..., relinearize_above: float = ...,
-        marginal_reach: Union[int, Literal["all"]] = ..., graph_sampling: Sampling = ...,
-        graph_distance: Distance = ..., node_spacing: Union[float, Literal["automatic"]] = ...,
+        linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
+        preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
+        relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
+        graph_sampling: Sampling = ..., graph_distance: Distance = ...,
+        node_spacing: Union[float, Literal["automatic"]] = ...,
         target_nodes: Union[int, Literal["automatic"]] = ..., graph_auto_spacing: float = ...,
         neighbors: int = ..., graph_edges: EdgeRule = ..., graph_edges_per_node: int = ...,
         graph_min_component_points: int = ..., graph_join_pieces: bool = ...,

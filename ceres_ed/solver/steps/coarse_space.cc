@@ -95,8 +95,8 @@ AffineProlongation MakeCoarseSpace(const PrimalMatrix& matrix,
     const Nearest& found = nearest[node];
     const int size = std::min(found.size, kMaxParts);
     // Where there is no further coarse node, a little more than the distance of the last one.
-    const double reach =
-        found.size > kMaxParts ? found.coarse[kMaxParts].first : 1.25 * found.coarse[size - 1].first;
+    const double reach = found.size > kMaxParts ? found.coarse[kMaxParts].first
+                                                : 1.25 * found.coarse[size - 1].first;
     double sum = 0.0;
     const auto first = static_cast<std::ptrdiff_t>(prolongation.parts.size());
     for (int i = 0; i < size; ++i) {
