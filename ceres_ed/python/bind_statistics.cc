@@ -28,7 +28,7 @@ Matrix ToShapes(const py::handle& object) {
   if (array.ndim() != 3 || array.shape(2) != 3 || array.size() == 0) {
     throw py::value_error("shapes: expected an array of (N, V, 3) numbers, N and V at least 1");
   }
-  const Matrix rows = Eigen::Map<const Matrix>(array.data(), array.shape(0), array.shape(1) * 3);
+  Matrix rows = Eigen::Map<const Matrix>(array.data(), array.shape(0), array.shape(1) * 3);
   if (!rows.allFinite()) {
     Eigen::Index row = 0;
     while (rows.row(row).allFinite()) ++row;
