@@ -24,7 +24,8 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE / "sources" if (HERE / "sources").is_dir() else HERE.parent.parent
 # What the library, the programs and the package are built from.
 SOURCES = ["CMakeLists.txt", "LICENSE", "README.md", "apps", "ceres_ed", "cost_functions",
-           "data/CMakeLists.txt", "data/make_pairs.cc", "scripts/cmake", "scripts/demo.sh"]
+           "data/CMakeLists.txt", "data/make_pairs.cc", "data/make_shapes.cc", "scripts/cmake",
+           "scripts/demo.sh"]
 OPTIONS = ["-DCMAKE_BUILD_TYPE=Release", "-DBUILD_SHARED_LIBS=OFF", "-DCERES_ED_BUILD_TESTS=OFF",
            "-DCERES_ED_BUILD_BENCHMARKS=OFF", "-DCERES_ED_BUILD_APPS=ON",
            "-DCERES_ED_BUILD_PYTHON=ON", "-DCERES_ED_BUILD_PCL=OFF", "-DCERES_ED_BUILD_VIDEO=OFF",
