@@ -1,3 +1,4 @@
+#include <ceres_ed/pipeline/cohort/cohort_checks.h>
 #include <ceres_ed/pipeline/cohort/manifest.h>
 
 #include <filesystem>
@@ -103,6 +104,20 @@ TEST(Shard, SaysWhatIsExpected) {
   for (const char* const text : {"0/3", "4/3", "2", "a/b", "1/3x", "1/0", "-1/2"}) {
     EXPECT_THAT(ParseShard(text).status().message(), HasSubstr("expected i/n")) << text;
   }
+}
+
+TEST(CohortChecks, NameTheTableAndTheRowOfAPairWithAUnit) {
+  CohortSettings settings;
+  settings.pairs = "pairs.csv";
+  Manifest manifest;
+  manifest.kind = CohortKind::kPairs;
+  manifest.members.resize(1);
+  manifest.members[0].name = "first";
+  manifest.members[0].unit = "mm";
+  EXPECT_EQ(CheckMembers(settings, settings.pairs, manifest).message(),
+            "pairs.csv: row 1, first: has the unit mm, expected --unit with that of TEMPLATE");
+  settings.unit = "m";
+  EXPECT_TRUE(CheckMembers(settings, settings.pairs, manifest).ok());
 }
 
 }  // namespace

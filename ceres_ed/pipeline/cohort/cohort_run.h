@@ -2,32 +2,19 @@
 #ifndef CERES_ED_PIPELINE_COHORT_COHORT_RUN_H_
 #define CERES_ED_PIPELINE_COHORT_COHORT_RUN_H_
 
+#include <ceres_ed/pipeline/cohort/cohort_observer.h>
 #include <ceres_ed/pipeline/cohort/cohort_settings.h>
-#include <ceres_ed/pipeline/cohort/collected_member.h>
-#include <ceres_ed/pipeline/cohort/shape_statistics.h>
 #include <ceres_ed/pipeline/outcome.h>
-#include <ceres_ed/pipeline/run_observer.h>
 #include <ceres_ed/util/timer.h>
 
 namespace ceres_ed {
-
-// A RunObserver that also receives the end of a cohort.
-class CohortObserver : public RunObserver {
- public:
-  // Called when the members of a shard have been run.
-  virtual void OnShard(int /*run*/, int /*skipped*/, int /*failed*/) {}
-  // Called when the summary and the statistics have been written.
-  virtual void OnCollected(const CollectedMembers& /*all*/, const ShapeStatistics& /*statistics*/) {
-  }
-};
 
 // Runs the members of the shard that have not been run, with these inputs and flags, before. If the
 // shard is the whole, the results are collected, too. How a run ends:
 //   usage      settings contradict one another;
 //   bad input  template or manifest can't be read, or results can't be written;
 //   no result  at least one member has failed, or has a verdict that `fit.fail_if` names;
-//   everything
-//              else has been done;
+//              everything else has been done;
 //   stopped    by the observer: what is done is kept, and the same run goes on from there.
 Outcome RunCohort(const CohortSettings& settings, const Timer& clock, CohortObserver* observer);
 

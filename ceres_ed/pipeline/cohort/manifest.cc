@@ -218,6 +218,10 @@ StatusOr<Manifest> ReadManifest(const std::string& path, CohortKind kind, bool w
   return manifest;
 }
 
+std::string MemberCount(int count) {
+  return std::to_string(count) + (count == 1 ? " member" : " members");
+}
+
 StatusOr<Shard> ParseShard(const std::string& text) {
   Shard shard;
   if (text.empty()) return shard;

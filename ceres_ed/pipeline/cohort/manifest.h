@@ -53,14 +53,16 @@ struct Manifest {
 //     `source_landmarks`, `target_landmarks`. Paths are seen from the folder of the table. A member
 //     without a name has that of its file, without the ending;
 //   - a folder of shapes: every file of it with the ending of a mesh, sorted by name, but for
-//     hidden ones. A file of
-//     landmarks with the same name (NAME.mrk.json, NAME.fcsv, NAME.landmarks.csv, NAME.pts) belongs
-//     to the shape if `with_landmarks`;
+//     hidden ones. A file of landmarks with the same name (NAME.mrk.json, NAME.fcsv,
+//     NAME.landmarks.csv, NAME.pts) belongs to the shape if `with_landmarks`;
 //   - a folder of folders, for sequences.
 // Errors name the file, the line, the value and what was expected: a column is missing, a row has
 // another number of fields than the header, a name cannot be that of a folder or occurs twice, a
 // unit is unknown, or there are no members. Files of members need not exist.
 StatusOr<Manifest> ReadManifest(const std::string& path, CohortKind kind, bool with_landmarks);
+
+// Returns "1 member", "12 members".
+std::string MemberCount(int count);
 
 // Returns the shard that `text` ("2/8") names; the whole if it is empty. The error says what was
 // expected.
