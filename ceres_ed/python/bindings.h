@@ -15,6 +15,7 @@ void BindWarp(pybind11::module_& module);
 void BindField(pybind11::module_& module);
 void BindFitOptions(pybind11::module_& module);
 void BindVerdict(pybind11::module_& module);
+void BindFitResult(pybind11::module_& module);
 void BindFit(pybind11::module_& module);
 void BindFitter(pybind11::module_& module);
 void BindEvaluate(pybind11::module_& module);

@@ -55,8 +55,7 @@ void Judge(const Documents& documents,
            FittedSurface* fitted);
 
 // Stores the result of a fit of `fitted->input`, whose target is not kept, with `warnings` ahead of
-// its own. Raises a ValueError for
-// an error, and a RuntimeError for a result that cannot be used.
+// its own. Raises a ValueError for an error, and a RuntimeError for a result that cannot be used.
 void Conclude(StatusOr<FitResult> result,
               const std::vector<std::string>& warnings,
               FittedSurface* fitted);

@@ -20,6 +20,7 @@ PYBIND11_MODULE(_core, module) {
   ceres_ed::python::BindField(module);
   ceres_ed::python::BindFitOptions(module);
   ceres_ed::python::BindVerdict(module);
+  ceres_ed::python::BindFitResult(module);
   ceres_ed::python::BindFit(module);
   ceres_ed::python::BindFitter(module);
   ceres_ed::python::BindEvaluate(module);
