@@ -43,12 +43,8 @@ def ask(script, *arguments):
     return BROWSER.execute_script(script, *arguments)
 
 
-class FitPage(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        pair = DATA / "dolphin_bend"
-        cls.page, cls.report = fit("dolphin", pair / "source.ply", pair / "target.ply",
-                                   f"--landmarks={pair / 'landmarks.csv'}", "--covariance")
+class ShownPage(unittest.TestCase):
+    """Opens the page of the class for each test, after which the browser has nothing to complain of."""
 
     def setUp(self):
         open_page(self.page)
@@ -57,6 +53,14 @@ class FitPage(unittest.TestCase):
     def tearDown(self):
         self.assertEqual(complaints(BROWSER), [])
         self.assertEqual(ask("return ceresEd.errors"), [])
+
+
+class FitPage(ShownPage):
+    @classmethod
+    def setUpClass(cls):
+        pair = DATA / "dolphin_bend"
+        cls.page, cls.report = fit("dolphin", pair / "source.ply", pair / "target.ply",
+                                   f"--landmarks={pair / 'landmarks.csv'}", "--covariance")
 
     def test_every_panel_draws_more_than_its_background(self):
         shares = ask("""
@@ -265,7 +269,7 @@ class FinishedRuns(unittest.TestCase):
         self.assertNotIn("--w_rot", flags)
 
 
-class SequencePage(unittest.TestCase):
+class SequencePage(ShownPage):
     @classmethod
     def setUpClass(cls):
         cls.sequence, cls.result = WORK / "heart", WORK / "tracked"
@@ -273,14 +277,6 @@ class SequencePage(unittest.TestCase):
         cls.page = WORK / "slam.html"
         run("ed_slam", cls.sequence, f"--output={cls.result}", f"--html={cls.page}", "--verify_every=4", "--quiet")
         cls.report = json.loads((cls.result / "report.json").read_text())
-
-    def setUp(self):
-        open_page(self.page)
-        self.assertTrue(ask("return window.ceresEd && ceresEd.ready"))
-
-    def tearDown(self):
-        self.assertEqual(complaints(BROWSER), [])
-        self.assertEqual(ask("return ceresEd.errors"), [])
 
     def test_the_map_is_drawn(self):
         share = ask("""
