@@ -29,8 +29,7 @@ class StopCallback final : public ceres::IterationCallback {
   bool stopped_ = false;
 };
 
-// With CGNR, a step may end at this relative residual or after this many iterations. They are those
-// of an exact step in practice: Ceres' own defaults make too many short steps on stiff graphs.
+// With CGNR, a step may end at this relative residual or after this many iterations.
 constexpr double kCgnrTolerance = 1e-3;
 constexpr int kCgnrIterations = 1000;
 

@@ -7,8 +7,7 @@
 namespace ceres_ed {
 namespace {
 
-// The increases of the diagonal that are tried, relative to it. With the last one, an M-matrix of
-// blocks is diagonally dominant.
+// The increases of the diagonal that are tried, relative to it.
 constexpr double kShifts[] = {0.0, 1e-3, 1e-2, 0.1, 1.0, 10.0};
 
 }  // namespace
