@@ -1,6 +1,7 @@
 #include "ceres_ed/io/atomic_file.h"
 
 #include <ceres_ed/io/text.h>
+#include <ceres_ed/util/process.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -20,6 +21,9 @@ namespace {
 
 constexpr std::size_t kBufferSize = 1 << 16;
 constexpr int kMaxNameAttempts = 1000;
+
+// What stands between the name of a file and that of the process that writes it.
+constexpr std::string_view kTemporary = ".tmp.";
 
 }  // namespace
 
@@ -108,8 +112,7 @@ StatusOr<std::unique_ptr<AtomicFile>> AtomicFile::Create(const std::string& path
   } else {
     // mkstemp() is not used, since its files are private to the user, whatever the umask is.
     for (int attempt = 0; descriptor < 0 && attempt < kMaxNameAttempts; ++attempt) {
-      file->temporary_path_ =
-          file->final_path_ + ".tmp." + std::to_string(::getpid()) + "." + std::to_string(attempt);
+      file->temporary_path_ = file->final_path_ + TemporaryEnding() + "." + std::to_string(attempt);
       descriptor =
           ::open(file->temporary_path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (descriptor < 0 && errno != EEXIST) break;
@@ -142,6 +145,25 @@ Status AtomicFile::Commit() {
   }
   temporary_path_.clear();
   return Status::Ok();
+}
+
+std::string TemporaryEnding() { return std::string(kTemporary) + ProcessName(); }
+
+void RemoveAbandonedFiles(const std::string& folder) {
+  std::error_code error;
+  for (auto entry = std::filesystem::directory_iterator(folder, error);
+       !error && entry != std::filesystem::end(entry);
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const std::size_t ending = name.rfind(kTemporary);
+    std::string_view rest;
+    if (ending == std::string::npos ||
+        !IsAbandoned(std::string_view(name).substr(ending + kTemporary.size()), &rest)) {
+      continue;
+    }
+    std::error_code ignored;
+    std::filesystem::remove(entry->path(), ignored);
+  }
 }
 
 Status WriteFileAtomically(const std::string& path, std::string_view contents) {

@@ -43,6 +43,15 @@ class AtomicFile {
   std::unique_ptr<std::ostream> stream_;
 };
 
+// Returns ".tmp.HOST.PID", with which the names of temporary files go on after the name of the file
+// that they become.
+std::string TemporaryEnding();
+
+// Removes the temporary files that processes of this machine have left in a folder when they were
+// killed. Files of processes at work, and of other machines, stay. Call it before this process
+// writes there.
+void RemoveAbandonedFiles(const std::string& folder);
+
 // Writes `contents` to `path` by an AtomicFile, with its errors.
 Status WriteFileAtomically(const std::string& path, std::string_view contents);
 

@@ -1,5 +1,6 @@
 #include "ceres_ed/io/npy_rows.h"
 
+#include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/npy_header.h>
 #include <ceres_ed/io/text.h>
 
@@ -36,7 +37,7 @@ StatusOr<std::unique_ptr<NpyRowsWriter>> NpyRowsWriter::Create(
     const std::string& path, const std::vector<std::size_t>& shape) {
   std::unique_ptr<NpyRowsWriter> writer(new NpyRowsWriter);
   writer->path_ = path;
-  const std::string temporary = path + ".tmp." + std::to_string(::getpid());
+  const std::string temporary = path + TemporaryEnding();
   writer->descriptor_ = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
   if (writer->descriptor_ < 0) return WriteError(path, errno);
   writer->temporary_path_ = temporary;

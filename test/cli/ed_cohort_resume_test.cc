@@ -1,6 +1,10 @@
 // ed_cohort in several parts: shards, resumed runs, killed runs.
+#include <ceres_ed/io/atomic_file.h>
+
 #include <csignal>
+#include <filesystem>
 #include <random>
+#include <string>
 
 #include <gmock/gmock.h>
 #include <test/cli/ed_cohort_test_util.h>
@@ -76,6 +80,19 @@ TEST_F(EdCohortTest, AKilledRunGoesOnToTheBytesOfAnUnbrokenOne) {
     options.signal = SIGKILL;
     options.signal_after_s = moment(random);
     Fit("broken", {}, options);
+  }
+  ASSERT_EQ(Fit("broken").exit_code, 0);
+  ExpectSameResults("whole", "broken");
+}
+
+// As a process leaves it that is killed while it writes into the folder of the cohort itself.
+TEST_F(EdCohortTest, HalfAFileOfAKilledRunIsRemoved) {
+  ASSERT_EQ(Fit("whole").exit_code, 0);
+  const std::string ending = TemporaryEnding();
+  const std::string gone = ending.substr(0, ending.rfind('.') + 1) + std::to_string((1 << 22) + 1);
+  std::filesystem::create_directories(dir_ / "broken");
+  for (const char* const name : {"cohort.json", "correspondences.npy"}) {
+    WriteBytes(dir_ / ("broken/" + (name + gone)), "half");
   }
   ASSERT_EQ(Fit("broken").exit_code, 0);
   ExpectSameResults("whole", "broken");

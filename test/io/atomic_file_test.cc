@@ -5,6 +5,7 @@
 #include <csignal>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -153,6 +154,27 @@ TEST(AtomicFile, UnwritableDirectoryAndFileAreErrors) {
   std::filesystem::permissions(directory / "locked", std::filesystem::perms::owner_read);
   EXPECT_THAT(WriteFileAtomically(directory / "locked/out.txt", "x").message(),
               HasSubstr("Permission denied"));
+}
+
+// Linux gives no process a number beyond 2^22.
+TEST(AtomicFile, WhatAKilledProcessOfThisMachineLeftIsRemovedAlone) {
+  const TemporaryDirectory directory;
+  const std::string ending = TemporaryEnding();
+  const std::string host = ending.substr(0, ending.rfind('.') + 1);
+  const std::string gone = std::to_string((1 << 22) + 1);
+  for (const std::string& ours : {host + gone + ".0", host + gone}) {
+    WriteBytes(directory / ("rows.csv" + ours), "half");
+  }
+  const std::vector<std::string> kept = {"rows.csv",
+                                         "rows.csv" + host + std::to_string(::getppid()) + ".0",
+                                         "rows.csv.tmp.another." + gone + ".0",
+                                         "rows.csv" + host + gone + "a",
+                                         "rows.csv.tmp.123.0"};
+  for (const std::string& name : kept) WriteBytes(directory / name, "whole");
+  RemoveAbandonedFiles(directory / ".");
+  for (const std::string& name : kept) EXPECT_TRUE(std::filesystem::exists(directory / name));
+  EXPECT_EQ(directory.NumFiles(), kept.size());
+  RemoveAbandonedFiles(directory / "not there");
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 #include "ceres_ed/pipeline/cohort/cohort_run.h"
 
+#include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/io/landmarks/landmark_file.h>
 #include <ceres_ed/pipeline/cohort/cohort_checks.h>
@@ -61,6 +62,7 @@ Outcome Round::Prepare() {
     }
     fitter_ = *std::move(fitter);
   }
+  RemoveAbandonedFiles(settings_.output);
   Status status = PrepareOutput(settings_.output + "/cohort.json");
   if (status.ok() && source_.has_value()) {
     CloudWriteOptions options;
@@ -97,6 +99,7 @@ Outcome Collect(const CollectSettings& settings,
                 ShapeStatistics* statistics) {
   StatusOr<CollectedMembers> all = ReadMembers(settings.folders);
   if (!all.ok()) return Outcome::BadInput(all.status());
+  RemoveAbandonedFiles(output);
   if (Status status = PrepareOutput(output + "/summary.csv"); !status.ok()) {
     return Outcome::BadInput(status);
   }

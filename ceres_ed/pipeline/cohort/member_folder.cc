@@ -1,37 +1,18 @@
 #include "ceres_ed/pipeline/cohort/member_folder.h"
 
-#include <array>
-#include <cerrno>
-#include <charconv>
-#include <csignal>
-#include <cstring>
+#include <ceres_ed/util/process.h>
+
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
-
-#include <unistd.h>
 
 namespace ceres_ed {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string HostName() {
-  std::array<char, 256> name{};
-  if (::gethostname(name.data(), name.size() - 1) != 0) return "host";
-  return name.data();
-}
-
 std::string WorkFolder(const std::string& output) { return output + "/.work"; }
-
-// Returns "HOST.", with which the names of folders of this machine begin.
-std::string HostPrefix() { return HostName() + "."; }
-
-// Returns whether a process with this number exists. This process has just begun, and so what has
-// its number is older.
-bool IsAtWork(pid_t process) {
-  return process != ::getpid() && (::kill(process, 0) == 0 || errno == EPERM);
-}
 
 }  // namespace
 
@@ -41,8 +22,7 @@ std::string MemberPath(const std::string& output, const std::string& name) {
 
 StatusOr<MemberFolder> MemberFolder::Create(const std::string& output, const std::string& name) {
   MemberFolder folder;
-  const std::string path =
-      WorkFolder(output) + "/" + HostPrefix() + std::to_string(::getpid()) + "." + name;
+  const std::string path = WorkFolder(output) + "/" + ProcessName() + "." + name;
   folder.final_path_ = MemberPath(output, name);
   std::error_code error;
   fs::remove_all(path, error);
@@ -81,18 +61,13 @@ Status MemberFolder::Commit() {
 std::set<std::string> RemoveAbandonedWork(const std::string& output) {
   std::set<std::string> names;
   std::error_code error;
-  const std::string prefix = HostPrefix();
   for (auto entry = fs::directory_iterator(WorkFolder(output), error);
        !error && entry != fs::end(entry);
        entry.increment(error)) {
     const std::string name = entry->path().filename().string();
-    if (name.rfind(prefix, 0) != 0) continue;
-    long process = 0;
-    const char* const end = name.data() + name.size();
-    const auto parsed = std::from_chars(name.data() + prefix.size(), end, process);
-    if (parsed.ec != std::errc() || parsed.ptr == end || *parsed.ptr != '.') continue;
-    if (IsAtWork(static_cast<pid_t>(process))) continue;
-    names.insert(parsed.ptr + 1);
+    std::string_view member;
+    if (!IsAbandoned(name, &member) || member.empty()) continue;
+    names.emplace(member);
     std::error_code ignored;
     fs::remove_all(entry->path(), ignored);
   }

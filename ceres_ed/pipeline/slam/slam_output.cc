@@ -39,7 +39,7 @@ constexpr char kCameraCovariance[] = "camera_covariance.csv";
 constexpr char kMapCovariance[] = "map_covariance.ply";
 
 // Returns the name without the ending of a temporary file: a killed run may have left a file
-// NAME.tmp.PID.N.
+// NAME.tmp.HOST.PID.N.
 std::string WithoutTemporaryEnd(const std::string& name) {
   return name.substr(0, std::min(name.find(".tmp."), name.size()));
 }
