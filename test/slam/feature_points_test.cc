@@ -130,6 +130,41 @@ TEST_F(FeaturePointsTest, AreGoneWhereThereIsNoSurface) {
   for (const PointMatch& m : features_.Matches(map_)) EXPECT_GT(m.in_camera.x(), 0.0);
 }
 
+// The tissue ends in the middle of the picture. It slides, and what is behind it slides elsewhere.
+TEST_F(FeaturePointsTest, AreNotPulledByWhatIsBehindTheRimOfTheTissue) {
+  constexpr int kRim = 80;
+  const auto picture = [&](const Eigen::Vector2d& shift, const Eigen::Vector2d& behind) {
+    ColorImage image = TexturedPicture(shift, EvenLight);
+    const ColorImage other = TexturedPicture(behind, EvenLight, /*seed=*/5);
+    for (int v = 0; v < image.height(); ++v) {
+      for (int u = kRim; u < image.width(); ++u) image(u, v) = other(u, v);
+    }
+    return image;
+  };
+  DepthImage depth = RenderDepth(SmallCamera(), TiltedPlane(kDepth, 0.0, 0.0));
+  for (int v = 0; v < depth.height(); ++v) {
+    for (int u = kRim; u < depth.width(); ++u) depth(u, v) = 0.0F;
+  }
+  const ObservedSurface tissue(depth, SmallCamera(), 1.0, ObservedSurfaceOptions());
+  FeaturePoints features(DenseFeatures());
+  const CameraPose& camera = map_.state().camera_from_map;
+  features.Track(picture({0, 0}, {0, 0}), tissue, map_, camera);
+  features.Replenish(tissue, map_);
+  constexpr int kFrames = 6;
+  const Eigen::Vector2d step(0.0, 1.0);
+  for (int frame = 1; frame <= kFrames; ++frame) {
+    features.Track(picture(frame * step, -2.0 * frame * step), tissue, map_, camera);
+  }
+  const Eigen::Vector3d slide = kPixel * kFrames * Eigen::Vector3d(step.x(), step.y(), 0.0);
+  std::vector<double> errors;
+  for (const PointMatch& m : features.Matches(map_)) {
+    if (SmallCamera().Project(m.in_camera).x() < kRim - PatchTemplate::kRadius) continue;
+    errors.push_back((camera * m.in_map + slide - m.in_camera).norm() / kPixel);
+  }
+  EXPECT_GT(errors.size(), 4u);
+  EXPECT_LT(*std::max_element(errors.begin(), errors.end()), 0.2);
+}
+
 TEST_F(FeaturePointsTest, DropThoseThatTheSolvedMapContradicts) {
   // To the right of the middle the tissue slides by 4 pixels, and the map does not follow it there.
   ColorImage torn = TexturedPicture({0.4, 0.0}, EvenLight);

@@ -132,6 +132,43 @@ TEST(PatchTemplate, IsNotFoundInAPatternThatRepeats) {
   EXPECT_LT((find(0.0).pixel - Eigen::Vector2d(60.0, 50.0)).norm(), 0.05);
 }
 
+// Returns a picture whose right part, from column 64 on, is moved in another way than the rest.
+Picture TwoSurfaces(const Eigen::Vector2d& left_shift, const Eigen::Vector2d& right_shift) {
+  return Picture([&](const Eigen::Vector2d& q) {
+    return Eigen::Vector2d(q - (q.x() < 64.0 ? left_shift : right_shift));
+  });
+}
+
+TEST(PatchTemplate, IsNotPulledByWhatMovesBeyondTheRimOfItsSurface) {
+  const Eigen::Vector2d place(60.0, 50.0);
+  const Eigen::Vector2d far(300.0, 0.0);
+  PatchTemplate whole;
+  ASSERT_TRUE(PatchTemplate::Cut(TwoSurfaces({0, 0}, far).levels(), place, &whole));
+  PatchTemplate kept = whole;
+  const double share = kept.Keep(place, [](const Eigen::Vector2d& q) { return q.x() < 64.0; });
+  EXPECT_NEAR(share, 11.0 / 15.0, 1e-12);
+  const Eigen::Vector2d shift(0.4, 0.3);
+  const auto find = [&](const PatchTemplate& patch, double reach) {
+    const Picture now = TwoSurfaces(shift, far + Eigen::Vector2d(2.5, -3.0));
+    return FindPatch(patch, now.levels(), place, Eigen::Matrix2d::Identity(), reach);
+  };
+  for (const double reach : {0.0, 6.0}) {
+    const PatchMatch match = find(kept, reach);
+    EXPECT_LT((match.pixel - place - shift).norm(), 0.05);
+    EXPECT_GT(match.correlation, 0.97);
+  }
+  EXPECT_GT((find(whole, 0.0).pixel - place - shift).norm(), 0.1);
+}
+
+TEST(PatchTemplate, ShowsNothingIfLittleOfItIsLeft) {
+  PatchTemplate patch = CutAt({60.0, 50.0});
+  patch.Keep({60.0, 50.0}, [](const Eigen::Vector2d& q) { return q.x() < 56.0; });
+  const Picture same([](const Eigen::Vector2d& q) { return q; });
+  EXPECT_LT(
+      FindPatch(patch, same.levels(), {60.0, 50.0}, Eigen::Matrix2d::Identity(), 4.0).correlation,
+      0.0);
+}
+
 TEST(PatchTemplate, IsNotCutOrFoundAtTheBorder) {
   const Picture picture([](const Eigen::Vector2d& q) { return q; });
   PatchTemplate patch;

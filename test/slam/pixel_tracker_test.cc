@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <vector>
 
 #include <Eigen/LU>
@@ -128,6 +130,46 @@ TEST(PixelTracker, IsNotMovedByALampThatDims) {
   const std::vector<double> errors = Errors(followed, {1.5, 0.5});
   ASSERT_FALSE(errors.empty());
   EXPECT_LT(Median(errors), 0.1);
+}
+
+// Returns the grey picture of tissue beside which, from column 80 on, something has this
+// brightness.
+std::vector<int> GrayBeside(double brightness, bool is_known) {
+  const ColorImage image =
+      TexturedPicture({0, 0}, [&](double u, double) { return u < 80.0 ? 0.5 : brightness; });
+  MaskImage measured(image.width(), image.height(), 1);
+  for (int v = 0; v < image.height(); ++v) {
+    for (int u = 80; u < image.width(); ++u) measured(u, v) = 0;
+  }
+  PixelTracker tracker(DenseCorners());
+  tracker.SetImage(image, is_known ? measured : MaskImage());
+  const ImageView<std::uint8_t> gray = tracker.Levels()[0];
+  return {gray.pixels(), gray.pixels() + static_cast<std::ptrdiff_t>(gray.width()) * gray.height()};
+}
+
+TEST(PixelTracker, DoesNotShadeTissueByWhatIsBesideIt) {
+  const auto difference = [](bool is_known) {
+    const std::vector<int> dark = GrayBeside(0.02, is_known);
+    const std::vector<int> bright = GrayBeside(1.0, is_known);
+    int most = 0;
+    for (std::size_t k = 0; k < dark.size(); ++k) {
+      if (k % 160 < 80) most = std::max(most, std::abs(dark[k] - bright[k]));
+    }
+    return most;
+  };
+  EXPECT_LE(difference(true), 1);
+  EXPECT_GT(difference(false), 20);
+}
+
+TEST(PixelTracker, IsTheSameWithAMaskThatHasEverything) {
+  const ColorImage image = TexturedPicture({0, 0}, LampLight);
+  PixelTracker with(DenseCorners());
+  with.SetImage(image, MaskImage(image.width(), image.height(), 1));
+  PixelTracker without(DenseCorners());
+  without.SetImage(image);
+  const ImageView<std::uint8_t> a = with.Levels()[0];
+  const ImageView<std::uint8_t> b = without.Levels()[0];
+  EXPECT_TRUE(std::equal(a.pixels(), a.pixels() + 160 * 120, b.pixels()));
 }
 
 TEST(PixelTracker, FlagsWhatIsCoveredOrOutOfThePicture) {

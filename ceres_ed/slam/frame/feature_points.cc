@@ -53,6 +53,25 @@ constexpr int kRecognizeAmong = 2;
 constexpr double kContinuousShare = 0.5;
 // Two corners that are closer than this in a picture are one; pixels.
 constexpr double kSamePlace = 3.0;
+// What lies farther than this from the tangent plane at a corner, in map units, is another surface;
+// and the share of a template that has to be left without it.
+constexpr double kOneSurface = 0.5;
+constexpr double kLeastTemplate = 0.5;
+
+// Leaves in a template only what belongs to the surface at its middle. Returns false if too little
+// is left to recognise the place by.
+bool KeepOneSurface(const ObservedSurface& surface,
+                    const Eigen::Vector2d& pixel,
+                    PatchTemplate* patch) {
+  const SurfacePatch* middle = surface.Find(pixel);
+  if (middle == nullptr) return false;
+  const auto belongs = [&](const Eigen::Vector2d& place) {
+    const SurfacePatch* there = surface.Find(place);
+    return there != nullptr &&
+           std::abs(middle->normal.dot(there->point - middle->point)) <= kOneSurface;
+  };
+  return patch->Keep(pixel, belongs) >= kLeastTemplate;
+}
 
 // Returns the median of how far the tracked corners are from where they were predicted: the error
 // of the predicted camera.
@@ -74,7 +93,7 @@ bool FeaturePoints::Track(ColorView image,
                           const DeformableMap& map,
                           const CameraPose& camera_from_map) {
   ++frame_;
-  tracker_.SetImage(image);
+  tracker_.SetImage(image, Measured(surface));
   Follow(surface, map, camera_from_map);
   // Many corners that are new in a picture are never found again, and say nothing about the camera.
   const bool continuous = size() > 0 && size() >= kContinuousShare * num_continued_;
@@ -341,6 +360,7 @@ void FeaturePoints::Replenish(const ObservedSurface& surface, const DeformableMa
     f.descriptor = descriptors[k];
     if (!OnSurface(surface, pixel, &f.in_camera)) continue;
     if (!PatchTemplate::Cut(picture, pixel, &f.patch)) continue;
+    if (!KeepOneSurface(surface, pixel, &f.patch)) continue;
     const Eigen::Vector3d place = camera_from_map.ApplyInverse(f.in_camera);
     if (binder.DistanceTo(place) > 1.5) continue;
     const Binding binding = binder.Bind(place, map.neighbors());

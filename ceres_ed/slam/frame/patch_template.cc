@@ -16,6 +16,8 @@ constexpr int kMaxSteps = 12;
 constexpr double kSmallStep = 0.05;
 // Patches with less contrast than this (standard deviation, grey values) show nothing.
 constexpr float kLeastContrast = 2.0f;
+// A level of a template with a smaller share of its pixels shows nothing.
+constexpr float kLeastShare = 0.25f;
 
 using Samples = Eigen::Array<float, kCount, 1>;
 using ThinSamples = Eigen::Array<float, (kRadius + 1) * (kRadius + 1), 1>;
@@ -38,18 +40,20 @@ float Sample(ImageView<std::uint8_t> image, float u, float v) {
   return above + b * (below - above);
 }
 
-// Subtracts the mean and divides by the norm. Returns false if there is too little contrast.
+// Subtracts the mean of those values that are `known` (1, otherwise 0), sets the others to 0, and
+// divides by the norm. Returns false if there is too little contrast.
 template <typename Values>
-bool Normalize(Values* values) {
-  *values -= values->mean();
+bool Normalize(const Values& known, float num_known, Values* values) {
+  *values -= (*values * known).sum() / num_known;
+  *values *= known;
   const float norm = std::sqrt(values->square().sum());
-  if (norm < kLeastContrast * std::sqrt(static_cast<float>(values->size()))) return false;
+  if (!(norm >= kLeastContrast * std::sqrt(num_known))) return false;
   *values /= norm;
   return true;
 }
 
-// Samples a picture at the pixels of a template around `pixel`, and normalizes. Returns false if
-// that is not possible.
+// Samples a picture at the pixels of a template around `pixel`. Returns false if a part of it lies
+// outside of the picture.
 bool Look(ImageView<std::uint8_t> image,
           const Eigen::Vector2d& pixel,
           const Eigen::Matrix2d& now_from_then,
@@ -96,28 +100,43 @@ bool Look(ImageView<std::uint8_t> image,
     const float top = between(above[k], a[k]);
     (*values)[k] = top + b[k] * (between(below[k], a[k]) - top);
   }
-  return Normalize(values);
+  return true;
 }
 
+// Every second sample of a template in each direction, normalized, and which of them belong to it.
+struct ThinTemplate {
+  ThinSamples values;
+  ThinSamples known;
+  float num_known = 0.0f;
+};
+
 // One level of a template: normalized values, their gradients, and the inverse of the normal matrix
-// of a shift.
+// of a shift. All are 0 at pixels that do not belong to it.
 class LevelTemplate {
  public:
   LevelTemplate(const PatchTemplate& patch, int level) {
     constexpr int kSide = PatchTemplate::kSide;
-    const auto at = [&](int x, int y) {
-      return static_cast<float>(patch.levels[level][(y + kRadius + 1) * kSide + x + kRadius + 1]);
+    const auto pixel = [&](int x, int y) {
+      return patch.levels[level][(y + kRadius + 1) * kSide + x + kRadius + 1];
+    };
+    const auto slope = [](std::uint8_t low, std::uint8_t high) {
+      if (low == PatchTemplate::kOther || high == PatchTemplate::kOther) return 0.0f;
+      return 0.5f * (static_cast<float>(high) - static_cast<float>(low));
     };
     int k = 0;
     for (int y = -kRadius; y <= kRadius; ++y) {
       for (int x = -kRadius; x <= kRadius; ++x, ++k) {
-        values_[k] = at(x, y);
-        dx_[k] = 0.5f * (at(x + 1, y) - at(x - 1, y));
-        dy_[k] = 0.5f * (at(x, y + 1) - at(x, y - 1));
+        values_[k] = static_cast<float>(pixel(x, y));
+        known_[k] = pixel(x, y) != PatchTemplate::kOther ? 1.0f : 0.0f;
+        dx_[k] = known_[k] * slope(pixel(x - 1, y), pixel(x + 1, y));
+        dy_[k] = known_[k] * slope(pixel(x, y - 1), pixel(x, y + 1));
       }
     }
-    const float norm = std::sqrt((values_ - values_.mean()).square().sum());
-    if (!Normalize(&values_)) return;
+    num_known_ = known_.sum();
+    if (num_known_ < kLeastShare * kCount) return;
+    const float mean = (values_ * known_).sum() / num_known_;
+    const float norm = std::sqrt(((values_ - mean) * known_).square().sum());
+    if (!Normalize(known_, num_known_, &values_)) return;
     dx_ /= norm;
     dy_ /= norm;
     Eigen::Matrix2d normal_matrix;
@@ -129,14 +148,21 @@ class LevelTemplate {
 
   bool valid() const { return valid_; }
 
-  // Returns every second sample in each direction; normalized.
-  ThinSamples Thin() const {
-    ThinSamples thin;
+  ThinTemplate Thin() const {
+    ThinTemplate thin;
     int k = 0;
     for (int y = 0; y < kWidth; y += 2) {
-      for (int x = 0; x < kWidth; x += 2) thin[k++] = values_[y * kWidth + x];
+      for (int x = 0; x < kWidth; x += 2, ++k) {
+        thin.values[k] = values_[y * kWidth + x];
+        thin.known[k] = known_[y * kWidth + x];
+      }
     }
-    Normalize(&thin);
+    thin.num_known = thin.known.sum();
+    // The values are normalized already, so that this has no least contrast.
+    thin.values -= (thin.values * thin.known).sum() / std::max(1.0f, thin.num_known);
+    thin.values *= thin.known;
+    const float norm = std::sqrt(thin.values.square().sum());
+    if (norm > 0.0f) thin.values /= norm;
     return thin;
   }
 
@@ -149,6 +175,7 @@ class LevelTemplate {
     const Eigen::Vector2d start = *pixel;
     for (int step = 0; step < kMaxSteps; ++step) {
       if (!Look(image, *pixel, now_from_then, &samples)) return -1.0;
+      if (!Normalize(known_, num_known_, &samples)) return -1.0;
       correlation = static_cast<double>((samples * values_).sum());
       const Samples error = samples - values_;
       const Eigen::Vector2d shift =
@@ -165,6 +192,9 @@ class LevelTemplate {
 
  private:
   Samples values_;
+  // 1 for a pixel that belongs to the template, otherwise 0.
+  Samples known_;
+  float num_known_ = 0.0f;
   Samples dx_;
   Samples dy_;
   Eigen::Matrix2d inverse_ = Eigen::Matrix2d::Zero();
@@ -212,7 +242,7 @@ class GridCorrelation {
   // Computes the correlations at whole pixels around `middle` that are at most `steps` <=
   // kMostSteps away in each direction. Those where a part of the template lies outside of the
   // picture are -1, and so are all if the template is stretched more than about three times.
-  GridCorrelation(const ThinSamples& wanted,
+  GridCorrelation(const ThinTemplate& wanted,
                   ImageView<std::uint8_t> image,
                   const Eigen::Matrix2d& now_from_then,
                   const Eigen::Vector2d& middle,
@@ -267,7 +297,7 @@ class GridCorrelation {
   }
 
   // Computes the correlations at `count` pixels in a row, from `start` to the right.
-  void CorrelateRow(const ThinSamples& wanted,
+  void CorrelateRow(const ThinTemplate& wanted,
                     const Eigen::Matrix2d& now_from_then,
                     const Eigen::Vector2d& start,
                     int count,
@@ -276,6 +306,7 @@ class GridCorrelation {
     int k = 0;
     for (int y = -kRadius; y <= kRadius; y += 2) {
       for (int x = -kRadius; x <= kRadius; x += 2, ++k) {
+        if (wanted.known[k] == 0.0f) continue;
         const Eigen::Vector2d at = start + now_from_then * Eigen::Vector2d(x, y);
         const int u = static_cast<int>(at.x());
         const int v = static_cast<int>(at.y());
@@ -286,15 +317,15 @@ class GridCorrelation {
         const Lanes value = above + b * (below - above);
         sum += value;
         squares += value * value;
-        product += value * wanted[k];
+        product += value * wanted.values[k];
       }
     }
-    constexpr auto kSize = static_cast<float>(ThinSamples::SizeAtCompileTime);
-    const Lanes variance = (squares - sum * sum / kSize) / kSize;
+    const float size = std::max(1.0f, wanted.num_known);
+    const Lanes variance = (squares - sum * sum / size) / size;
     for (int i = 0; i < count; ++i) {
       if (variance[i] < kLeastContrast * kLeastContrast) continue;
       // The sum of what is wanted is 0.
-      correlations[i] = product[i] / std::sqrt(variance[i] * kSize);
+      correlations[i] = product[i] / std::sqrt(variance[i] * size);
     }
   }
 
@@ -371,7 +402,9 @@ bool PatchTemplate::Cut(const GrayLevels& picture,
         const double v = middle.y() + y;
         if (!Inside(picture[level], u, v)) return false;
         const float value = Sample(picture[level], static_cast<float>(u), static_cast<float>(v));
-        patch->levels[level][k] = static_cast<std::uint8_t>(std::lround(value));
+        // The smallest value has another meaning.
+        patch->levels[level][k] =
+            static_cast<std::uint8_t>(std::max(kOther + 1L, std::lround(value)));
       }
     }
   }

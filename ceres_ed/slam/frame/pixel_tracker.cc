@@ -31,17 +31,34 @@ std::vector<cv::Point2f> ToCv(const std::vector<Eigen::Vector2d>& pixels) {
 // Returns the picture without the illumination. Lamps move with the camera, and a brightness
 // gradient that is fixed in the picture would hold corners back. The logarithm turns illumination
 // into an offset, which a high-pass filter removes; the remaining image is scaled to the same
-// contrast everywhere.
-cv::Mat Flatten(const cv::Mat& rgb, double radius) {
+// contrast everywhere. Mean and contrast are those of the pixels where `measured` is 1 (empty:
+// all): otherwise the rim of an organ would shade the tissue beside it, and the shade moves with
+// the rim. Other pixels count for themselves alone, so that they are never stronger than the
+// tissue.
+cv::Mat Flatten(const cv::Mat& rgb, const cv::Mat& measured, double radius) {
   constexpr double kLeastContrast = 0.03;
   constexpr double kGain = 40.0;
   cv::Mat gray, log, mean, square, deviation, flat;
   cv::cvtColor(rgb, gray, cv::COLOR_RGB2GRAY);
   gray.convertTo(log, CV_32F, 1.0, 8.0);
   cv::log(log, log);
-  cv::GaussianBlur(log, mean, cv::Size(), radius);
-  log -= mean;
-  cv::GaussianBlur(log.mul(log), square, cv::Size(), radius);
+  if (measured.empty()) {
+    cv::GaussianBlur(log, mean, cv::Size(), radius);
+    log -= mean;
+    cv::GaussianBlur(log.mul(log), square, cv::Size(), radius);
+  } else {
+    cv::Mat share;
+    cv::GaussianBlur(measured, share, cv::Size(), radius);
+    // Far from what was measured a pixel is its own mean.
+    constexpr double kLeastShare = 1e-3;
+    cv::GaussianBlur(log.mul(measured), mean, cv::Size(), radius);
+    mean = (mean + kLeastShare * log) / (share + kLeastShare);
+    log -= mean;
+    const cv::Mat squares = log.mul(log);
+    cv::GaussianBlur(squares.mul(measured), square, cv::Size(), radius);
+    square /= share + kLeastShare;
+    square += squares.mul(1.0 - measured);
+  }
   cv::sqrt(square, deviation);
   cv::divide(log, deviation + kLeastContrast, log, kGain);
   log.convertTo(flat, CV_8U, 1.0, 128.0);
@@ -133,13 +150,21 @@ PixelTracker::PixelTracker(const PixelTrackerOptions& options) : impl_(new Impl)
 
 PixelTracker::~PixelTracker() = default;
 
-void PixelTracker::SetImage(ColorView image) {
+void PixelTracker::SetImage(ColorView image, const MaskImage& measured) {
   // OpenCV only reads this image.
   const cv::Mat rgb(image.height(),
                     image.width(),
                     CV_8UC3,
                     const_cast<void*>(static_cast<const void*>(image.pixels())));
-  impl_->gray = Flatten(rgb, impl_->options.light_radius);
+  cv::Mat known;
+  if (std::find(measured.pixels().begin(), measured.pixels().end(), 0) != measured.pixels().end()) {
+    const cv::Mat mask(measured.height(),
+                       measured.width(),
+                       CV_8UC1,
+                       const_cast<std::uint8_t*>(measured.pixels().data()));
+    mask.convertTo(known, CV_32F);
+  }
+  impl_->gray = Flatten(rgb, known, impl_->options.light_radius);
   impl_->before = std::move(impl_->now);
   impl_->BuildPyramid();
 }

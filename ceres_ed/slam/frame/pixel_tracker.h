@@ -28,8 +28,10 @@ class PixelTracker {
   explicit PixelTracker(const PixelTrackerOptions& options);
   ~PixelTracker();
 
-  // Makes the present picture the previous one, and `image` the present one.
-  void SetImage(ColorView image);
+  // Makes the present picture the previous one, and `image` the present one. `measured` is empty,
+  // or of its size and not 0 where a surface was measured: the light is then estimated from these
+  // pixels alone.
+  void SetImage(ColorView image, const MaskImage& measured = MaskImage());
 
   // Returns the present picture in grey, without the shades of the light. It is valid until the
   // next call of SetImage() or Exchange().

@@ -9,7 +9,7 @@ PixelTracker::PixelTracker(const PixelTrackerOptions& /*options*/) {}
 
 PixelTracker::~PixelTracker() = default;
 
-void PixelTracker::SetImage(ColorView /*image*/) {}
+void PixelTracker::SetImage(ColorView /*image*/, const MaskImage& /*measured*/) {}
 
 GrayLevels PixelTracker::Levels() const { return {}; }
 
