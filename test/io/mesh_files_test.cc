@@ -147,6 +147,33 @@ TEST_F(MeshFiles, OffTakesItsVariants) {
   EXPECT_THAT(colors.Find("face")->Find("green")->values, ElementsAre(20));
 }
 
+// A share above 1 would be read as a byte.
+TEST_F(MeshFiles, OffKeepsColoursThatAreNoneWithinItsRange) {
+  const PlyDocument document = Read("a.off",
+                                    "COFF\n2 1 0\n0 0 0 1e999 510 102\n1 0 0 nan -3 255\n"
+                                    "3 0 1 1 1e20 20.5 30\n");
+  const PlyDocument again = WrittenAndRead(document, "b.off");
+  EXPECT_THAT(again.Find("vertex")->Find("red")->values, ElementsAre(255, 0));
+  EXPECT_THAT(again.Find("vertex")->Find("green")->values, ElementsAre(255, 0));
+  EXPECT_THAT(again.Find("vertex")->Find("blue")->values, ElementsAre(102, 255));
+  EXPECT_THAT(again.Find("face")->Find("red")->values, ElementsAre(1));
+  WrittenAndRead(again, "c.off");
+  EXPECT_EQ(ReadBytes(directory_ / "b.off"), ReadBytes(directory_ / "c.off"));
+}
+
+TEST_F(MeshFiles, ACommentStaysInItsLine) {
+  PlyDocument document = OddMesh(PlyType::kFloat64);
+  document.comments = {"one\rend_header\nv 1 2 3\r"};
+  document.obj_info = {"two\nelement vertex 1\r"};
+  for (const std::string name : {"a.ply", "a.off", "a.obj"}) {
+    const PlyDocument again = WrittenAndRead(document, name);
+    EXPECT_EQ(again.Find("vertex")->count, document.Find("vertex")->count) << name;
+  }
+  const PlyDocument again = Read("a.ply");
+  EXPECT_THAT(again.comments, ElementsAre("one end_header v 1 2 3 "));
+  EXPECT_THAT(again.obj_info, ElementsAre("two element vertex 1 "));
+}
+
 TEST_F(MeshFiles, OffSaysWhatIsWrongAndWhere) {
   EXPECT_EQ(ErrorOf("a.off", "4OFF\n1 0 0\n0 0 0 0\n"),
             "line 1: the keyword is '4OFF', expected OFF, with C, N or ST ahead of it (in three "

@@ -140,6 +140,12 @@ void AppendColors(const std::vector<double>& values, std::size_t channels, PlyEl
   }
 }
 
+std::string CommentLine(std::string comment) {
+  std::replace_if(
+      comment.begin(), comment.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+  return comment;
+}
+
 std::string Counted(std::size_t count, const std::string& noun) {
   const bool is_vertex = noun == "vertex";
   const std::string plural = is_vertex ? "vertices" : noun + "s";

@@ -74,6 +74,9 @@ void AppendFaces(std::vector<double> corners,
 // are multiples of 1/255, as most are, they become bytes.
 void AppendColors(const std::vector<double>& values, std::size_t channels, PlyElement* element);
 
+// Returns `comment` with blanks for ends of lines, behind which readers would take it for data.
+std::string CommentLine(std::string comment);
+
 // Returns "1 point" or "5 points".
 std::string Counted(std::size_t count, const std::string& noun);
 

@@ -18,7 +18,7 @@ class ObjWriter {
   std::string Write() {
     for (const std::string& comment : document_.comments) {
       const bool is_library = comment.rfind("mtllib ", 0) == 0;
-      text_ += (is_library ? "" : "# ") + comment + '\n';
+      text_ += (is_library ? "" : "# ") + CommentLine(comment) + '\n';
     }
     WriteVertices();
     WriteTextures();

@@ -199,8 +199,10 @@ class OffReader {
   static void AddColors(std::vector<double> colors, std::size_t channels, PlyElement* element) {
     const bool are_bytes =
         std::any_of(colors.begin(), colors.end(), [](double value) { return value > 1.0; });
-    if (are_bytes) {
-      for (double& value : colors) value /= 255.0;
+    // What is beyond the range of its kind, or no number, is written within it.
+    for (double& value : colors) {
+      const double share = are_bytes ? value / 255.0 : value;
+      value = share > 0.0 ? std::min(share, 1.0) : 0.0;
     }
     AppendColors(colors, channels, element);
   }

@@ -3,11 +3,16 @@
 #include <ceres_ed/io/mesh/off_file.h>
 #include <ceres_ed/io/text_rows.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <optional>
 
 namespace ceres_ed {
 namespace {
+
+// Returns a share of the largest colour within [0, 1], beyond which it would be read as a byte; not
+// a number is black.
+double WithinColors(double share) { return share > 0.0 ? std::min(share, 1.0) : 0.0; }
 
 // Appends red green blue alpha: bytes as they are, other types in [0, 1].
 void AppendColor(const PlyElement& element,
@@ -18,12 +23,12 @@ void AppendColor(const PlyElement& element,
   const bool is_byte = type == PlyType::kUint8;
   for (const std::size_t column : colors.rgb) {
     const PlyProperty& channel = element.properties[column];
-    AppendNumbers(
-        {is_byte ? channel.values[row] : channel.values[row] / LargestColor(channel.type)}, text);
+    const double share = WithinColors(channel.values[row] / LargestColor(channel.type));
+    AppendNumbers({is_byte ? channel.values[row] : share}, text);
   }
   if (!colors.alpha.has_value()) return AppendNumbers({is_byte ? 255.0 : 1.0}, text);
   const PlyProperty& alpha = element.properties[*colors.alpha];
-  const double share = alpha.values[row] / LargestColor(alpha.type);
+  const double share = WithinColors(alpha.values[row] / LargestColor(alpha.type));
   AppendNumbers({is_byte ? 255.0 * share : share}, text);
 }
 
@@ -37,7 +42,7 @@ Status WriteOff(const std::string& path, const PlyDocument& document) {
   const std::optional<ColorColumns> colors = FindColors(vertices);
   std::string text =
       std::string(colors.has_value() ? "C" : "") + (normals.has_value() ? "N" : "") + "OFF\n";
-  for (const std::string& comment : document.comments) text += "# " + comment + '\n';
+  for (const std::string& comment : document.comments) text += "# " + CommentLine(comment) + '\n';
   text += std::to_string(vertices.count) + ' ' + std::to_string(view->NumFaces()) + " 0\n";
   for (std::size_t row = 0; row < vertices.count; ++row) {
     const Eigen::Vector3d point = view->Point(row);

@@ -1,5 +1,6 @@
 #include "ceres_ed/io/mesh/ply_header.h"
 
+#include <ceres_ed/io/mesh/mesh_view.h>
 #include <ceres_ed/io/text.h>
 #include <ceres_ed/util/text.h>
 
@@ -259,7 +260,7 @@ std::string FormatPlyHeader(const PlyDocument& document) {
   const auto append_lines = [&text](const char* keyword, const std::vector<std::string>& lines) {
     for (const std::string& line : lines) {
       text += keyword;
-      if (!line.empty()) text += ' ' + line;
+      if (!line.empty()) text += ' ' + CommentLine(line);
       text += '\n';
     }
   };
