@@ -2,6 +2,7 @@
 
 #include <ceres_ed/io/atomic_file.h>
 #include <ceres_ed/io/npy_file.h>
+#include <ceres_ed/io/picture_header.h>
 #include <ceres_ed/io/text.h>
 
 #include <algorithm>
@@ -52,6 +53,7 @@ StatusOr<cv::Mat> Decode(const std::string& path, int flags) {
   if (!bytes.ok()) return bytes.status();
   if (bytes->empty()) return Status::Error(path + ": empty, expected a PNG or JPEG");
   if (Status status = CheckWholePng(path, *bytes); !status.ok()) return status;
+  if (Status status = CheckPictureHeader(path, *bytes); !status.ok()) return status;
   if (bytes->size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
     return Status::Error(path + ": " + std::to_string(bytes->size()) +
                          " bytes, expected less than 2 GiB");
@@ -64,7 +66,8 @@ StatusOr<cv::Mat> Decode(const std::string& path, int flags) {
   } catch (const std::exception& error) {
     return Status::Error(path + ": can't be decoded: " + OneLine(error.what()));
   }
-  if (image.empty()) return Status::Error(path + ": no picture that can be read (PNG or JPEG)");
+  if (image.empty())
+    return Status::Error(path + ": no picture that can be read, expected a PNG, JPEG or TIFF");
   return image;
 }
 

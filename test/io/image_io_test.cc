@@ -171,6 +171,41 @@ TEST_F(Images, PngThatIsCutOffIsAnErrorAndNothingElseIsPrinted) {
   }
 }
 
+// Otherwise the decoder would fill gigabytes before it misses the data.
+TEST_F(Images, AHeaderThatPromisesMoreThanTheFileCanHoldIsAnError) {
+  std::string png = FromHex(kGrey16);
+  // Width and height: 8192 x 8192 of 16 bits are 128 MB, of which 74 bytes hold at most 76 kB.
+  png.replace(16, 8, std::string("\0\0\x20\0\0\0\x20\0", 8));
+  WriteBytes(path_, png);
+  EXPECT_EQ(ReadDepthImage(path_, 1000.0).status().message(),
+            path_ +
+                ": its header promises 8192 x 8192 pixels, which 74 bytes cannot hold: it is "
+                "damaged, or was not written whole");
+  png.replace(16, 8, std::string("\0\0\x80\0\0\0\x80\0", 8));
+  WriteBytes(path_, png);
+  EXPECT_THAT(ReadColorImage(path_).status().message(),
+              HasSubstr("32768 x 32768 pixels, expected at most 8192 x 8192 of them"));
+  // JFIF, then a frame of 8000 x 8000 pixels of one component.
+  WriteBytes(path_,
+             FromHex("ffd8ffe000104a46494600010100000100010000ffc0000b081f401f4001011100ffd9"));
+  EXPECT_THAT(ReadMaskImage(path_).status().message(),
+              HasSubstr("promises 8000 x 8000 pixels, which 35 bytes cannot hold"));
+  // A TIFF whose only two tags are width and height, big-endian.
+  WriteBytes(path_,
+             FromHex("4d4d002a000000080002010000040000000100100000010100040000000100100000"
+                     "00000000"));
+  EXPECT_THAT(ReadDepthImage(path_, 1000.0).status().message(),
+              HasSubstr("promises 1048576 x 1048576 pixels"));
+}
+
+TEST_F(Images, ABlankPictureIsRead) {
+  const ColorImage blank(4000, 3000, {0, 0, 0});
+  ASSERT_TRUE(WriteColorImage(path_, blank).ok());
+  const StatusOr<ColorImage> read = ReadColorImage(path_);
+  ASSERT_TRUE(read.ok()) << read.status().message();
+  EXPECT_EQ(read->width(), 4000);
+}
+
 TEST_F(Images, UnwritablePathIsAnErrorThatNamesIt) {
   const std::string path = directory_ / "none/depth.png";
   EXPECT_THAT(WriteDepthImage(path, DepthImage(2, 2, 1.0F), 1000.0).message(), HasSubstr(path));
