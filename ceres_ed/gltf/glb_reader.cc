@@ -309,7 +309,7 @@ class SceneReader {
 
 // Returns the text in one line without control characters.
 std::string OneLine(std::string text) {
-  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+  for (char& c : text) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
   text.erase(text.find_last_not_of(' ') + 1);
   return text.substr(0, 200);
 }

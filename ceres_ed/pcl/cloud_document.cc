@@ -285,6 +285,7 @@ class PclBuilder {
   }
 
   void Fill(const Source& source, const Field& field, pcl::PCLPointCloud2* cloud) const {
+    if (vertices_.count == 0) return;
     const std::size_t size = PlyTypeSize(source.type);
     std::uint8_t* point = cloud->data.data() + field.offset;
     for (std::size_t row = 0; row < vertices_.count; ++row, point += cloud->point_step) {

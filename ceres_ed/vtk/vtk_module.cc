@@ -50,7 +50,7 @@ class Messages : public vtkOutputWindow {
     // Ahead of the sentence VTK names its source file, the object and its address.
     const std::size_t address = message.find("): ");
     if (address != std::string::npos) message.erase(0, address + 3);
-    for (char& c : message) c = static_cast<unsigned char>(c) < ' ' ? ' ' : c;
+    for (char& c : message) c = static_cast<unsigned char>(c) < ' ' || c == 0x7f ? ' ' : c;
     message.erase(message.find_last_not_of(' ') + 1);
     first_ = message.substr(0, 200);
   }
@@ -84,13 +84,18 @@ Status Damaged(const std::string& path, const std::string& message) {
                        (message.empty() ? "" : ": " + message));
 }
 
-StatusOr<std::string> Start(const std::string& path) {
+struct FileStart {
+  std::size_t size = 0;
+  std::string bytes;
+};
+
+StatusOr<FileStart> ReadStart(const std::string& path) {
   std::ifstream file;
   const StatusOr<std::size_t> size = OpenRegularFile(path, &file);
   if (!size.ok()) return size.status();
   constexpr std::size_t kStart = 4096;
-  std::string start(std::min(*size, kStart), '\0');
-  file.read(start.data(), static_cast<std::streamsize>(start.size()));
+  FileStart start{*size, std::string(std::min(*size, kStart), '\0')};
+  file.read(start.bytes.data(), static_cast<std::streamsize>(start.bytes.size()));
   return start;
 }
 
@@ -133,11 +138,27 @@ vtkSmartPointer<vtkPolyData> ReadLegacy(const std::string& path) {
   return reader->GetOutput();
 }
 
+using Reader = vtkSmartPointer<vtkPolyData> (*)(const std::string& path);
+
+// Returns whether VTK can read a file of that size without an end of the process, and in a memory
+// that its numbers can explain: an error of VTK about memory is no end of its own.
+bool IsReadSafely(Reader read, const std::string& path, std::size_t size) {
+  // A number of an ascii file has two bytes, and takes up to eight, and as much while arrays grow.
+  constexpr std::size_t kBytesPerByte = 32;
+  constexpr std::size_t kLeast = std::size_t{512} << 20U;
+  const auto trial = [&] {
+    const MessageScope messages;
+    read(path);
+    return messages.first().find("llocat") == std::string::npos;
+  };
+  return EndsWell(trial, kLeast + kBytesPerByte * size);
+}
+
 Status ReadVtkFile(const std::string& path, PlyDocument* document) {
-  const StatusOr<std::string> start = Start(path);
+  const StatusOr<FileStart> start = ReadStart(path);
   if (!start.ok()) return start.status();
-  const auto read = IsVtp(*start, start->size()) ? ReadXml : ReadLegacy;
-  if (!EndsWell([&] { read(path); })) return Damaged(path, "it is truncated or damaged");
+  const Reader read = IsVtp(start->bytes, start->bytes.size()) ? ReadXml : ReadLegacy;
+  if (!IsReadSafely(read, path, start->size)) return Damaged(path, "it is truncated or damaged");
   const MessageScope messages;
   try {
     const vtkSmartPointer<vtkPolyData> surface = read(path);

@@ -129,6 +129,10 @@ TEST(VtkFile, OtherDataAndDamageAreOneSentenceWithoutOutputOfVtk) {
   std::string beyond = kAscii;
   beyond.replace(beyond.find("4 0 1 3 2"), 9, "4 0 1 3 7");
   EXPECT_THAT(error_of("a.vtk", beyond), HasSubstr("a cell names point 7, the file has 5"));
+  // VTK would take 24 GB ahead of the first number.
+  std::string many = kAscii;
+  many.replace(many.find("POINTS 5"), 8, "POINTS 2000000000");
+  EXPECT_THAT(error_of("a.vtk", many), HasSubstr("a.vtk: VTK cannot read it"));
   EXPECT_THAT(error_of("a.vtp", "<?xml version=\"1.0\"?>\n<VTKFile type=\"PolyData\">\n<PolyData>"),
               HasSubstr("a.vtp: VTK cannot read it"));
 }
