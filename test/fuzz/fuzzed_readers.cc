@@ -11,11 +11,14 @@
 #include <ceres_ed/io/image_io.h>
 #include <ceres_ed/io/json_file.h>
 #include <ceres_ed/io/landmarks/landmark_file.h>
+#include <ceres_ed/io/mesh/gltf_file.h>
 #include <ceres_ed/io/mesh/obj_file.h>
 #include <ceres_ed/io/mesh/off_file.h>
+#include <ceres_ed/io/mesh/pcd_file.h>
 #include <ceres_ed/io/mesh/ply_reader.h>
 #include <ceres_ed/io/mesh/ply_writer.h>
 #include <ceres_ed/io/mesh/stl_file.h>
+#include <ceres_ed/io/mesh/vtk_file.h>
 #include <ceres_ed/io/npy_file.h>
 #include <ceres_ed/io/point_list_io.h>
 #include <ceres_ed/io/pose_matrix.h>
@@ -35,13 +38,14 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <fcntl.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 namespace ceres_ed {
@@ -147,6 +151,20 @@ std::string MeshFault(const std::string& path,
   return FaultOfRoundTrip(path, scratch, read, write);
 }
 
+// By a module; where it is not built, the reader says so.
+std::string GlbFault(const std::string& path, const std::string& scratch) {
+  return FaultOfRoundTrip(path, scratch, ReadGlb, WriteGlb);
+}
+
+std::string PcdFault(const std::string& path, const std::string& scratch) {
+  return FaultOfRoundTrip(path, scratch, ReadPcd, WritePcd);
+}
+
+// VTK is tried in a process of its own, which takes long enough.
+std::string VtkFault(const std::string& path, const std::string&) {
+  return FaultOf(ReadVtk(path), path);
+}
+
 std::string ObjFault(const std::string& path, const std::string& scratch) {
   return MeshFault(path, scratch, ReadObj, WriteObj);
 }
@@ -221,6 +239,11 @@ std::string NpyFault(const std::string& path, const std::string& scratch) {
   return FaultOfRoundTrip(path, scratch, ReadNpyFile, WriteNpyFile);
 }
 
+// Colours and masks have one decoder.
+std::string PictureFault(const std::string& path, const std::string&) {
+  return FaultOf(ReadColorImage(path), path);
+}
+
 std::string PictureSizeFault(const std::string& path, const std::string&) {
   return FaultOf(ReadPictureSize(path), path);
 }
@@ -280,6 +303,7 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"fcsv", ".fcsv", NamedPointsFault},
       {"fixed", ".txt", FixedFault},
       {"frames", ".csv", FramesFault},
+      {"glb", ".glb", GlbFault},
       {"image_grid", ".image", ImageGridFault},
       {"ini_calibration", ".ini", IniCalibrationFault},
       {"intrinsics", ".txt", IntrinsicsFault},
@@ -293,6 +317,8 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"npy", ".npy", NpyFault},
       {"obj", ".obj", ObjFault},
       {"off", ".off", OffFault},
+      {"pcd", ".pcd", PcdFault},
+      {"picture", ".jpg", PictureFault},
       {"picture_size", ".png", PictureSizeFault},
       {"ply", ".ply", PlyFault},
       {"pose_matrix", ".txt", PoseMatrixFault},
@@ -302,6 +328,8 @@ const std::vector<FuzzedReader>& FuzzedReaders() {
       {"stl", ".stl", StlFault},
       {"tracks", ".csv", TracksFault},
       {"trajectory", ".txt", TrajectoryFault},
+      {"vtk", ".vtk", VtkFault},
+      {"vtp", ".vtp", VtkFault},
       {"warp", ".json", WarpFault},
       {"yaml_calibration", ".yaml", YamlCalibrationFault},
   };
@@ -315,21 +343,51 @@ const FuzzedReader* FindFuzzedReader(const std::string& name) {
   return nullptr;
 }
 
-std::string FaultOfBytes(const FuzzedReader& reader, const std::string& bytes) {
-  const std::string base = std::filesystem::temp_directory_path().string() + "/ceres_ed_fuzz_" +
-                           std::to_string(getpid());
-  const std::string path = base + reader.ending;
-  const std::string scratch = base + "_written" + reader.ending;
-  {
-    std::ofstream file(path, std::ios::binary);
-    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    if (!file.flush()) return "can't write " + path;
+namespace {
+
+// The two files of this process, which are written over for each input: making and removing them
+// would take longer than most readers do.
+class ScratchFiles {
+ public:
+  explicit ScratchFiles(const std::string& ending)
+      : base_(std::filesystem::temp_directory_path().string() + "/ceres_ed_fuzz_" +
+              std::to_string(getpid())),
+        path_(base_ + ending),
+        written_(base_ + "_written" + ending) {}
+  ~ScratchFiles() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+    std::filesystem::remove(written_, ignored);
   }
-  std::string fault = reader.fault(path, scratch);
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-  std::filesystem::remove(scratch, ignored);
-  return fault;
+  ScratchFiles(const ScratchFiles&) = delete;
+  ScratchFiles& operator=(const ScratchFiles&) = delete;
+
+  const std::string& path() const { return path_; }
+  const std::string& written() const { return written_; }
+
+  bool Fill(const std::string& bytes) const {
+    const int file = open(path_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    if (file < 0) return false;
+    const bool is_whole = write(file, bytes.data(), bytes.size()) == ssize_t(bytes.size());
+    return close(file) == 0 && is_whole;
+  }
+
+ private:
+  const std::string base_;
+  const std::string path_;
+  const std::string written_;
+};
+
+}  // namespace
+
+std::string FaultOfBytes(const FuzzedReader& reader, const std::string& bytes) {
+  // Other places that the user names come first.
+  static const int named = setenv("CERES_ED_MODULES", CERES_ED_MODULE_FOLDER, /*overwrite=*/0);
+  if (named != 0) return "can't name the folder of the modules";
+  static std::map<std::string, ScratchFiles> files_of;
+  const ScratchFiles& files = files_of.try_emplace(reader.ending, reader.ending).first->second;
+  if (!files.Fill(bytes)) return "can't write " + files.path();
+  return reader.fault(files.path(), files.written());
 }
 
 }  // namespace ceres_ed

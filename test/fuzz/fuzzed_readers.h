@@ -24,7 +24,8 @@ const std::vector<FuzzedReader>& FuzzedReaders();
 // Returns the reader of that name, or null.
 const FuzzedReader* FindFuzzedReader(const std::string& name);
 
-// Writes `bytes` to a file of its own, has it read, removes it, and returns the fault.
+// Writes `bytes` to a file of this process, which is removed at its end, has it read, and returns
+// the fault. Not for several threads.
 std::string FaultOfBytes(const FuzzedReader& reader, const std::string& bytes);
 
 }  // namespace ceres_ed
