@@ -8,7 +8,8 @@ frames, in the axes of the second one: its translation, and the rotation vector 
   scale        the factor by which the covariances would have to be multiplied for 95 % of the steps
   mm, mrad     root mean square error of a step, and its standard deviation
 
-kCommonMotionScale (slam/levels/common_motion.h) was chosen on the kidney; the other organs are the test.
+kCommonPlaceScale and kCommonTurnScale (slam/levels/common_motion.h) were chosen on the kidney; the other organs
+are the test.
 Needs numpy.
 
   scripts/bench_camera_covariance.py

@@ -2,7 +2,6 @@
 // growth.
 #include <ceres_ed/slam/frame/association.h>
 #include <ceres_ed/slam/frame/still_tissue.h>
-#include <ceres_ed/slam/levels/common_motion.h>
 #include <ceres_ed/slam/levels/edge_weights.h>
 #include <ceres_ed/slam/levels/level_covariance.h>
 #include <ceres_ed/slam/tracker.h>
@@ -217,7 +216,8 @@ void Tracker::MeasureCovariances(const FrameObservations& observations, FrameRep
   if (!level.ok()) return;
   LevelCovariance::Matrix6d camera = (*level)->MapFromCamera();
   // A camera that was given is certain.
-  if (!camera.isZero(0.0)) camera += CommonMotionCovariance(observations, nodes_before_, map_);
+  if (!camera.isZero(0.0))
+    camera += CommonMotionCovariance(observations, nodes_before_, map_.state());
   if (camera.allFinite()) {
     camera.topRows<3>() *= unit_;
     camera.leftCols<3>() *= unit_;
@@ -252,10 +252,10 @@ void Tracker::Deform(const ObservedSurface& surface, bool catch_up, FrameReport*
   }
   levels_->BeginFrame();
   if (options_.covariance) {
-    nodes_before_.clear();
-    for (int j = 0; j < map_.state().num_nodes(); ++j) {
-      nodes_before_.push_back(NodeTranslation(map_.state().node(j)));
-    }
+    std::vector<PointBinding> bindings;
+    bindings.reserve(visible_.size());
+    for (const VisiblePoint& point : visible_) bindings.push_back(map_.binding(point.slot));
+    nodes_before_.Take(bindings, map_.state());
   }
   const FrameObservations observations = FollowSeen(surface, report);
   if (options_.covariance) MeasureCovariances(observations, report);

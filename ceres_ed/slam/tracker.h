@@ -13,6 +13,7 @@
 #include <ceres_ed/slam/frame/observed_surface.h>
 #include <ceres_ed/slam/frame/visibility.h>
 #include <ceres_ed/slam/levels/batch_comparison.h>
+#include <ceres_ed/slam/levels/common_motion.h>
 #include <ceres_ed/slam/levels/levels.h>
 #include <ceres_ed/slam/map/deformable_map.h>
 #include <ceres_ed/slam/map/point_covariances.h>
@@ -120,8 +121,8 @@ class Tracker final : public DeformableSlam {
   // The number of nodes at the start of the last growth.
   int nodes_before_growth_ = 0;
   PointCovariances covariances_;
-  // With covariances: the translations of the nodes ahead of this frame's Level I.
-  std::vector<Eigen::Vector3d> nodes_before_;
+  // With covariances: the nodes of the visible points ahead of this frame's Level I.
+  NodePlaces nodes_before_;
   // Whether the tissue seemed still in the last frame that was followed.
   bool was_still_ = true;
   // The last motion of the camera, along the directions that the data determined.
