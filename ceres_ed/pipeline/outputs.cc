@@ -2,8 +2,12 @@
 
 #include <ceres_ed/io/atomic_file.h>
 
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <system_error>
 
 namespace ceres_ed {
@@ -24,6 +28,29 @@ Status PrepareOutput(const std::string& path) {
   // Only an attempt shows whether permissions and mounts allow the file. It is discarded.
   const StatusOr<std::unique_ptr<AtomicFile>> probe = AtomicFile::Create(path);
   return probe.status();
+}
+
+bool IsFolderOfSequence(const std::string& output, const std::string& sequence) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  if (fs::equivalent(output, sequence, error)) return true;
+  const fs::path inner = fs::canonical(output, error);
+  // It does not exist yet.
+  if (error) return false;
+  const fs::path outer = fs::canonical(sequence, error);
+  if (error ||
+      std::mismatch(outer.begin(), outer.end(), inner.begin(), inner.end()).first != outer.end()) {
+    return false;
+  }
+  constexpr std::array<std::string_view, 6> kPictures = {
+      ".png", ".jpg", ".jpeg", ".tif", ".tiff", ".npy"};
+  for (fs::directory_iterator entry(inner, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::string ending = entry->path().extension().string();
+    for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (std::find(kPictures.begin(), kPictures.end(), ending) != kPictures.end()) return true;
+  }
+  return false;
 }
 
 }  // namespace ceres_ed

@@ -115,12 +115,14 @@ TEST_F(EdSlamOutputTest, ReplacesWhatAFailedRunHasLeft) {
 }
 
 TEST_F(EdSlamOutputTest, RefusesToWriteIntoItsInput) {
-  for (const std::string& output : {std::string("seq"), std::string("seq/../seq/")}) {
+  for (const std::string output : {"seq", "seq/../seq/", "seq/depth"}) {
     const ProgramResult refused = Run(output, {"--overwrite"});
     EXPECT_EQ(refused.exit_code, 1);
-    EXPECT_THAT(refused.err, HasSubstr("is the folder of the sequence, expected another one"));
+    EXPECT_THAT(refused.err, HasSubstr("is a folder of the sequence, expected another one"));
   }
   EXPECT_FALSE(Exists("seq/frames.csv"));
+  EXPECT_FALSE(Exists("seq/depth/frames.csv"));
+  EXPECT_EQ(Run("seq/out", {"--last=0"}).exit_code, 0);
 }
 
 TEST_F(EdSlamOutputTest, WritesCovariancesOnRequestAndChangesNothingElse) {

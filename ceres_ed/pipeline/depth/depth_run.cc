@@ -2,6 +2,7 @@
 
 #include <ceres_ed/io/sequence/native_writer.h>
 #include <ceres_ed/io/sequence/scene_truth.h>
+#include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/pipeline/report.h>
 #include <ceres_ed/stereo/depth_source.h>
 #include <ceres_ed/util/statistics.h>
@@ -198,10 +199,9 @@ class DepthRun {
 }  // namespace
 
 Outcome RunDepth(const DepthSettings& settings, DepthObserver* observer) {
-  std::error_code error;
-  if (fs::equivalent(settings.input, settings.output, error)) {
+  if (IsFolderOfSequence(settings.output, settings.input)) {
     return Outcome::Usage("--output=" + settings.output +
-                          " is the folder of the sequence, expected another one");
+                          " is a folder of the sequence, expected another one");
   }
   if (!settings.overwrite && HoldsNativeSequence(settings.output)) {
     return Outcome::BadInput(Status::Error(

@@ -3,6 +3,7 @@
 #include <ceres_ed/energy/energy_registry.h>
 #include <ceres_ed/io/cloud_io.h>
 #include <ceres_ed/pipeline/energies.h>
+#include <ceres_ed/pipeline/outputs.h>
 #include <ceres_ed/pipeline/slam/challenge.h>
 #include <ceres_ed/pipeline/slam/map_mesh.h>
 #include <ceres_ed/pipeline/slam/slam_look.h>
@@ -11,10 +12,8 @@
 #include <ceres_ed/pipeline/slam/warning_log.h>
 
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -43,10 +42,9 @@ StatusOr<std::vector<NamedPoint>> LoadPoints(const std::string& path, WarningLog
 
 // Checks the output folder, because a run removes the results of an earlier run from it.
 Outcome CheckOutputFolder(const SlamSettings& settings) {
-  std::error_code error;
-  if (std::filesystem::equivalent(settings.input, settings.output, error)) {
+  if (IsFolderOfSequence(settings.output, settings.input)) {
     return Outcome::Usage("--output=" + settings.output +
-                          " is the folder of the sequence, expected another one");
+                          " is a folder of the sequence, expected another one");
   }
   if (!settings.resume && !settings.overwrite && HoldsResult(settings.output)) {
     return Outcome::Usage("--output=" + settings.output +
