@@ -218,9 +218,9 @@ class PcdReader {
       return Error("the compressed data has " + std::to_string(sizes[1]) + " bytes, expected " +
                    std::to_string(NumBytes()));
     }
+    if (NumBytes() == 0) return Status::Ok();
     std::vector<char> plain(NumBytes());
-    if (!plain.empty() &&
-        pcl::lzfDecompress(rest_.data(), sizes[0], plain.data(), sizes[1]) != sizes[1]) {
+    if (pcl::lzfDecompress(rest_.data(), sizes[0], plain.data(), sizes[1]) != sizes[1]) {
       return Error("the compressed data is damaged");
     }
     result_.cloud.data.resize(NumBytes());
