@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <numeric>
 
 namespace ceres_ed {
 namespace {
@@ -225,6 +226,12 @@ void Planner::PlaceUpdatesOf(const std::vector<int>& fronts) {
 }
 
 void Planner::PlaceUpdates() {
+  std::vector<int> all(fronts_.size());
+  std::iota(all.begin(), all.end(), 0);
+  PlaceUpdatesOf(all);
+  for (FrontLayout& front : layout_.fronts) front.serial_update = front.update;
+  layout_.serial_size = layout_.stack_size;
+  layout_.stack_size = 0;
   std::vector<char> in_task(fronts_.size(), 0);
   for (const FrontTask& task : layout_.tasks) {
     std::vector<int> fronts;

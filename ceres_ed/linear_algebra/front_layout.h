@@ -36,10 +36,12 @@ struct FrontLayout {
   int update_stride = 0;
   // Where the panel starts, in the array of all panels.
   std::size_t panel = 0;
-  // Where the update starts: among the updates that outlive their task if `is_kept`, else on the
-  // stack of the thread that computes it.
+  // Where the update starts, if several threads work: among the updates that outlive their task if
+  // `is_kept`, else on the stack of the thread that computes it.
   std::size_t update = 0;
   bool is_kept = false;
+  // Where it starts if one thread computes all fronts in their order.
+  std::size_t serial_update = 0;
   // The position of the first column in the order of elimination; the other columns follow it.
   int first_position = 0;
   // Maps the rows of the update to positions in the order of elimination.
@@ -97,6 +99,9 @@ struct FactorLayout {
   std::size_t panel_size = 0;
   std::size_t kept_size = 0;
   std::size_t stack_size = 0;
+  // The number of doubles of all updates if one thread computes all fronts. It is less than the sum
+  // of those, since no update waits for the end of all tasks.
+  std::size_t serial_size = 0;
   int max_panel_rows = 0;
   double operations = 0.0;
 };

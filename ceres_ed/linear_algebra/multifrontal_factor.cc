@@ -168,12 +168,26 @@ void MultifrontalFactor::PlaceUpdate(int f, int thread) {
   if (!front.is_kept) update_places_[f] += layout_.kept_size + thread * layout_.stack_size;
 }
 
+// Computes all fronts with one thread, which needs less memory than tasks do.
+bool MultifrontalFactor::FactorizeInOrder(const double* values,
+                                          const Eigen::VectorXd& diagonal,
+                                          const std::function<bool()>& should_stop) {
+  memory_->updates.Require(layout_.serial_size);
+  for (int f = 0; f < static_cast<int>(layout_.fronts.size()); ++f) {
+    if (should_stop && should_stop()) return false;
+    update_places_[f] = memory_->updates.data() + layout_.fronts[f].serial_update;
+    if (!FactorizeFront(f, values, diagonal, 1)) return false;
+  }
+  return true;
+}
+
 bool MultifrontalFactor::Factorize(const double* values,
                                    const Eigen::VectorXd& diagonal,
                                    int num_threads,
                                    const std::function<bool()>& should_stop) {
   const int num_tasks = static_cast<int>(layout_.tasks.size());
   const int task_threads = std::max(1, std::min(num_threads, num_tasks));
+  if (task_threads == 1) return FactorizeInOrder(values, diagonal, should_stop);
   memory_->updates.Require(layout_.kept_size + task_threads * layout_.stack_size);
   std::atomic<bool> ok{true};
   std::atomic<int> next{0};

@@ -70,13 +70,17 @@ class MultifrontalFactor {
   double* Update(const FrontLayout& front) const {
     return update_places_[&front - layout_.fronts.data()];
   }
+  bool FactorizeInOrder(const double* values,
+                        const Eigen::VectorXd& diagonal,
+                        const std::function<bool()>& should_stop);
   void PlaceUpdate(int f, int thread);
 
   void TakeOwnRows(const FrontLayout& front, const Eigen::VectorXd& ordered);
   void PutOwnRows(const FrontLayout& front, Eigen::VectorXd* ordered) const;
 
   const FactorLayout layout_;
-  // The panels, and the updates: first those that outlive their task, then one stack per thread.
+  // The panels, and the updates: with several threads first those that outlive their task, then one
+  // stack per thread.
   FactorMemory* memory_;
   // The address of the update of each front.
   std::vector<double*> update_places_;

@@ -239,6 +239,17 @@ TEST(BlockCholesky, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_LT((product - rhs).norm(), 1e-12 * rhs.norm());
 }
 
+// Tasks keep the updates of whole subtrees until all of them have ended.
+TEST(BlockCholesky, NeedsLessMemoryForUpdatesWithOneThread) {
+  const BlockStructure structure = Sheet(60, 30, [](int, int) { return true; });
+  const std::vector<double> values = RandomValues(structure, 5);
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(structure.num_rows(), 120.0);
+  FactorMemory one, two;
+  ASSERT_TRUE(BlockCholesky(structure, 0, &one).Factorize(values.data(), diagonal, 1));
+  ASSERT_TRUE(BlockCholesky(structure, 0, &two).Factorize(values.data(), diagonal, 2));
+  EXPECT_LT(one.updates.size(), 0.7 * two.updates.size());
+}
+
 TEST(BlockStructure, FindsWhatItHasAndNothingElse) {
   const BlockStructure structure({12, 6, 12}, {{0, 2}, {2, 0}});
   EXPECT_EQ(structure.num_entries(), 4);
