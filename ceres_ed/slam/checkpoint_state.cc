@@ -213,24 +213,32 @@ void TissueMemory::Exchange(CheckpointArchive* archive) {
 void Foreground::Exchange(CheckpointArchive* archive) {
   archive->Enter("foreground");
   // The intrinsics are those of the tracker.
-  int width = cells_.width();
-  int height = cells_.height();
+  int width = cell_at_.width();
+  int height = cell_at_.height();
   archive->Value("width", &width);
   archive->Value("height", &height);
   archive->Value("cell", &cell_);
   ExchangePose("camera_from_map", &camera_from_map_, archive);
-  if (!archive->saving()) {
-    const bool is_valid = width >= 0 && height >= 0 && cell_ >= 1 &&
-                          (width - 1) * cell_ < camera_.width &&
-                          (height - 1) * cell_ < camera_.height;
-    cells_ = is_valid ? Image<Cell>(width, height) : Image<Cell>();
-  }
-  std::vector<Cell>& cells = cells_.pixels();
+  std::vector<Cell> cells = cells_;
+  ExchangeCount("cells", &cells, archive);
+  archive->Column("at", &cells, [](Cell& c) -> int& { return c.at; });
   archive->Column("place", &cells, [](Cell& c) -> Eigen::Vector3d& { return c.place; });
   archive->Column("now", &cells, [](Cell& c) -> Eigen::Vector3d& { return c.now; });
   archive->Column("age", &cells, [](Cell& c) -> int& { return c.age; });
-  has_foreground_ =
-      std::any_of(cells.begin(), cells.end(), [](const Cell& c) { return c.in_foreground(); });
+  if (!archive->saving()) {
+    // The surface is a grid over the picture.
+    const bool is_valid = width >= 0 && height >= 0 && cell_ >= 1 &&
+                          (width - 1) * cell_ < camera_.width &&
+                          (height - 1) * cell_ < camera_.height &&
+                          std::all_of(cells.begin(), cells.end(), [&](const Cell& cell) {
+                            return cell.in_foreground() && cell.at >= 0 && cell.at < width * height;
+                          });
+    if (is_valid) {
+      SetCells(width, height, std::move(cells));
+    } else {
+      SetCells(0, 0, {});
+    }
+  }
   archive->Leave();
 }
 

@@ -146,7 +146,7 @@ TEST(Checkpoint, SaysOfWhatVersionAnOlderOneIs) {
                               {"payload", nlohmann::json::binary({1, 2, 3})}};
   std::string bytes;
   nlohmann::json::to_cbor(old, bytes);
-  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 5"));
+  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 6"));
 }
 
 TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {

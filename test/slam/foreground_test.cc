@@ -1,10 +1,12 @@
 #include "ceres_ed/slam/frame/foreground.h"
 
 #include <ceres_ed/graph/warp.h>
+#include <ceres_ed/slam/checkpoint.h>
 #include <ceres_ed/slam/slam.h>
 
 #include <algorithm>
 #include <memory>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <test/slam/depth_scenes.h>
@@ -74,6 +76,40 @@ TEST(Foreground, KeepsAToolThatComesInOutOfTheMap) {
         ++frames_with_tool;
       });
   EXPECT_EQ(frames_with_tool, 24);
+}
+
+TEST(Foreground, IsLoadedAsItWasSaved) {
+  LayerScene scene;
+  scene.least = {-0.03, 0.0};
+  scene.most = {-0.015, 0.2};
+  scene.step = {0.0015, 0.0};
+  const std::unique_ptr<DeformableSlam> slam = TrackLayer(scene, StillCamera(), 3);
+  const MaskImage mask = slam->ForegroundMask();
+  ASSERT_GT(std::count(mask.pixels().begin(), mask.pixels().end(), 1), 0);
+  CheckpointWriter writer;
+  slam->Exchange(&writer);
+  const std::string bytes = writer.TakeBytes();
+  const auto reader = CheckpointReader::Open(bytes);
+  ASSERT_TRUE(reader.ok()) << reader.status().message();
+  const std::unique_ptr<DeformableSlam> loaded = TrackLayer(scene, StillCamera(), 0);
+  loaded->Exchange(reader->get());
+  ASSERT_TRUE((*reader)->status().ok()) << (*reader)->status().message();
+  EXPECT_EQ(loaded->ForegroundMask().pixels(), mask.pixels());
+}
+
+// The surface has a cell for every few pixels.
+TEST(Foreground, SavesNothingOfCellsThatAreTissue) {
+  const LayerScene scene;
+  ObservedSurfaceOptions options;
+  options.cell = 1;
+  const DepthImage depth(scene.camera.width, scene.camera.height, 0.1F);
+  ObservedSurface surface(depth, scene.camera, 1.0, options);
+  ASSERT_GT(surface.num_valid(), 1000);
+  Foreground foreground(scene.camera);
+  EXPECT_EQ(foreground.Remove({}, CameraPose(), &surface), 0.0);
+  CheckpointWriter writer;
+  foreground.Exchange(&writer);
+  EXPECT_LT(writer.TakeBytes().size(), 1000u);
 }
 
 TEST(Foreground, KeepsAToolOfTheFirstFrameOutOfTheMap) {

@@ -164,14 +164,16 @@ class PartCollector {
 Foreground::Cell Foreground::Continue(const CameraPose& camera_from_map,
                                       const SurfacePatch& patch) const {
   Cell cell;
-  if (!has_foreground_) return cell;
+  if (cells_.empty()) return cell;
   const Eigen::Vector3d place = camera_from_map.ApplyInverse(patch.point);
   const Eigen::Vector3d before = camera_from_map_ * place;
   if (!(before.z() > 0.0)) return cell;
   const Eigen::Vector2d pixel = camera_.Project(before);
   if (!InPicture(camera_, pixel)) return cell;
-  const Cell& last = cells_(NearestPixel(pixel.x()) / cell_, NearestPixel(pixel.y()) / cell_);
-  if (!last.in_foreground() || (last.now - place).norm() > kSameSurface) return cell;
+  const int at = cell_at_(NearestPixel(pixel.x()) / cell_, NearestPixel(pixel.y()) / cell_);
+  if (at == kNoCell) return cell;
+  const Cell& last = cells_[at];
+  if ((last.now - place).norm() > kSameSurface) return cell;
   cell.age = last.age + 1;
   cell.place = last.place;
   if (std::abs((camera_from_map * last.place).z() - patch.point.z()) > kStandsStill) {
@@ -185,11 +187,11 @@ double Foreground::Remove(const std::vector<VisiblePoint>& visible,
                           const CameraPose& camera_from_map,
                           ObservedSurface* surface) {
   const double noise = kNoiseWidth * surface->noise();
-  const bool first = visible.empty() && cells_.empty();
+  const bool first = visible.empty() && cell_at_.empty();
   const Image<Place> places = PlacesOf(visible, *surface, noise);
   const auto on_map = std::count(places.pixels().begin(), places.pixels().end(), Place::kOnMap);
   PartCollector parts(*surface, places, kJump + noise);
-  std::vector<std::pair<std::pair<int, int>, Cell>> removed;
+  std::vector<Cell> removed;
   for (int v = 0; v < surface->height(); ++v) {
     for (int u = 0; u < surface->width(); ++u) {
       if (!parts.IsNew(u, v)) continue;
@@ -215,6 +217,7 @@ double Foreground::Remove(const std::vector<VisiblePoint>& visible,
       for (std::size_t k = 0; k < known.size(); ++k) {
         const auto& [i, j] = part.cells[k];
         Cell& cell = known[k];
+        cell.at = j * surface->width() + i;
         cell.now = camera_from_map.ApplyInverse(surface->patch(i, j).point);
         if (!cell.in_foreground()) {
           cell.age = 0;
@@ -223,27 +226,37 @@ double Foreground::Remove(const std::vector<VisiblePoint>& visible,
         ages.push_back(cell.age);
       }
       if (Median(std::move(ages)) >= kSettledAge) continue;
-      for (std::size_t k = 0; k < known.size(); ++k) removed.emplace_back(part.cells[k], known[k]);
+      removed.insert(removed.end(), known.begin(), known.end());
     }
   }
   const double share = static_cast<double>(removed.size()) / std::max(1, surface->num_valid());
-  if (has_foreground_ || cells_.empty()) cells_ = Image<Cell>(surface->width(), surface->height());
-  for (const auto& [at, cell] : removed) {
-    surface->Remove(at.first, at.second);
-    cells_(at.first, at.second) = cell;
+  for (const Cell& cell : removed) {
+    surface->Remove(cell.at % surface->width(), cell.at / surface->width());
   }
-  has_foreground_ = !removed.empty();
+  SetCells(surface->width(), surface->height(), std::move(removed));
   cell_ = surface->cell();
   camera_from_map_ = camera_from_map;
   return share;
 }
 
+void Foreground::SetCells(int width, int height, std::vector<Cell> cells) {
+  if (cell_at_.width() != width || cell_at_.height() != height) {
+    cell_at_ = Image<int>(width, height, kNoCell);
+  } else {
+    for (const Cell& cell : cells_) cell_at_.pixels()[cell.at] = kNoCell;
+  }
+  cells_ = std::move(cells);
+  for (std::size_t c = 0; c < cells_.size(); ++c) {
+    cell_at_.pixels()[cells_[c].at] = static_cast<int>(c);
+  }
+}
+
 MaskImage Foreground::Mask() const {
-  if (cells_.empty()) return {};
+  if (cell_at_.empty()) return {};
   MaskImage mask(camera_.width, camera_.height, 0);
   for (int v = 0; v < mask.height(); ++v) {
     for (int u = 0; u < mask.width(); ++u) {
-      mask(u, v) = cells_(u / cell_, v / cell_).in_foreground() ? 1 : 0;
+      mask(u, v) = cell_at_(u / cell_, v / cell_) != kNoCell ? 1 : 0;
     }
   }
   return mask;

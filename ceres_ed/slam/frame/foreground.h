@@ -38,8 +38,10 @@ class Foreground {
   void Exchange(CheckpointArchive* archive);
 
  private:
-  // What is kept of a cell of the surface.
+  // What is kept of a cell of the foreground.
   struct Cell {
+    // Its index among the cells of the surface, row by row.
+    int at = 0;
     // The place in the map frame where its surface was when its age was 0.
     Eigen::Vector3d place = Eigen::Vector3d::Zero();
     // The place in this frame.
@@ -50,13 +52,17 @@ class Foreground {
   };
 
   Cell Continue(const CameraPose& camera_from_map, const SurfacePatch& patch) const;
+  // Sets the cells of a surface of this size; all others are not foreground.
+  void SetCells(int width, int height, std::vector<Cell> cells);
 
   PinholeCamera camera_;
   int cell_ = 1;
   CameraPose camera_from_map_;
-  // The cells of the last frame, and whether any of them is foreground.
-  Image<Cell> cells_;
-  bool has_foreground_ = false;
+  // The cells of the last frame that are foreground, and for each cell of the surface its index
+  // among them, or kNoCell. Most frames have few or none of them.
+  static constexpr int kNoCell = -1;
+  std::vector<Cell> cells_;
+  Image<int> cell_at_;
 };
 
 }  // namespace ceres_ed
