@@ -187,16 +187,15 @@ CERES_ED_INLINE void AddColumns(const OuterProduct& product, int first, int last
     const int last_row = std::min(product.rows, first_row + kRowBlock);
     for (int c = first; c < std::min(last_row, last); c += kRowUnit) {
       const int row = std::max(c, first_row);
-      MultiplyStrip<kLanes, kVectors, kColumns, kOverwrite>(
-          last_row - row,
-          product.width,
-          product.L21 + row,
-          product.L21 + c,
-          product.stride,
-          std::min(kRowUnit, last - c),
-          product.sign,
-          product.update + static_cast<std::ptrdiff_t>(c) * product.update_stride + row,
-          product.update_stride);
+      MultiplyStrip<kLanes, kVectors, kColumns, kOverwrite>(last_row - row,
+                                                            product.width,
+                                                            product.L21 + row,
+                                                            product.L21 + c,
+                                                            product.stride,
+                                                            std::min(kRowUnit, last - c),
+                                                            product.sign,
+                                                            product.UpdateColumn(c) + row,
+                                                            product.StrideAt(c));
     }
   }
 }

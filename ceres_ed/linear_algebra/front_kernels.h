@@ -6,6 +6,8 @@
 #ifndef CERES_ED_LINEAR_ALGEBRA_FRONT_KERNELS_H_
 #define CERES_ED_LINEAR_ALGEBRA_FRONT_KERNELS_H_
 
+#include <cstddef>
+
 namespace ceres_ed {
 
 // The number of rows and the leading dimension of a front are multiples of this.
@@ -15,6 +17,20 @@ inline constexpr int kPanelWidth = 24;
 
 // Returns `rows` rounded up to a multiple of kRowUnit.
 inline constexpr int RoundUpRows(int rows) { return (rows + kRowUnit - 1) / kRowUnit * kRowUnit; }
+
+// A lower triangle in strips of kRowUnit columns: each strip has the rows from its first column to
+// the end, `rows` of which there are, a multiple of kRowUnit. This is little more than half of the
+// square. Returns where entry (0, column) would be, to which its row is added.
+inline constexpr std::ptrdiff_t StripOffset(int rows, int column) {
+  const std::ptrdiff_t first = column / kRowUnit * kRowUnit;
+  const std::ptrdiff_t before = first * rows - first * (first - kRowUnit) / 2;
+  return before + (column - first) * (rows - first) - first;
+}
+
+// Returns the number of values of such a triangle.
+inline constexpr std::size_t StripsSize(int rows) {
+  return static_cast<std::size_t>(StripOffset(rows, rows) + rows);
+}
 
 // Returns what the kernels of this process are compiled for: "AVX-512", "AVX2" or "plain".
 const char* FrontKernelName();
@@ -37,7 +53,17 @@ struct OuterProduct {
   // Whether the product is added to `update` (true) or overwrites it (false).
   bool accumulate = false;
   double* update = nullptr;
+  // The column stride of `update`, or 0 if it has strips (StripOffset()).
   int update_stride = 0;
+
+  // Returns the address of entry (0, column) of the update, and the stride there.
+  double* UpdateColumn(int column) const {
+    return update + (update_stride > 0 ? static_cast<std::ptrdiff_t>(column) * update_stride
+                                       : StripOffset(rows, column));
+  }
+  int StrideAt(int column) const {
+    return update_stride > 0 ? update_stride : rows - column / kRowUnit * kRowUnit;
+  }
 };
 
 // Computes columns [first, last) of the product. `first` is a multiple of kRowUnit.

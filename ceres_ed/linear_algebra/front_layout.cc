@@ -77,7 +77,6 @@ void Planner::PlacePanels() {
     place.padded_update_rows = RoundUpRows(place.update_rows);
     place.below_row = place.own_row + RoundUpRows(place.width - place.dual_width);
     place.panel_stride = StrideFor(place.panel_rows());
-    place.update_stride = StrideFor(place.padded_update_rows);
     place.panel = layout_.panel_size;
     layout_.panel_size += static_cast<std::size_t>(place.panel_stride) * place.width;
     layout_.max_panel_rows = std::max(layout_.max_panel_rows, place.panel_rows());
@@ -201,10 +200,7 @@ void Planner::PlaceUpdatesOf(const std::vector<int>& fronts) {
   }
   std::array<std::size_t, 2> top = {0, 0};
   std::array<std::size_t, 2> highest = {0, 0};
-  const auto size = [&](int f) {
-    const FrontLayout& place = layout_.fronts[f];
-    return static_cast<std::size_t>(place.update_stride) * place.padded_update_rows;
-  };
+  const auto size = [&](int f) { return StripsSize(layout_.fronts[f].padded_update_rows); };
   for (const int f : fronts) {
     const std::size_t stack = parity[f] == 0 ? 0 : 1;
     const int parent = fronts_[f].parent;

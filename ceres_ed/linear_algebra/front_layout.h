@@ -19,8 +19,8 @@ struct RowRun {
   int length = 0;
 };
 
-// The layout of one front. Its panel [L11; L21] is kept; its update -L21 L21^T exists until the
-// parent has added it.
+// The layout of one front. Its panel [L11; L21] is kept; its update -L21 L21^T, of which the lower
+// triangle is stored in strips (front_kernels.h), exists until the parent has added it.
 struct FrontLayout {
   // The number of columns: the `dual_width` dual columns come first, then the others. The panel has
   // as many rows of its own; those that are not dual start at `own_row`.
@@ -33,7 +33,6 @@ struct FrontLayout {
   int padded_update_rows = 0;
   int below_row = 0;
   int panel_stride = 0;
-  int update_stride = 0;
   // Where the panel starts, in the array of all panels.
   std::size_t panel = 0;
   // Where the update starts, if several threads work: among the updates that outlive their task if

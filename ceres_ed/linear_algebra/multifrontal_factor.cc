@@ -60,8 +60,7 @@ void MultifrontalFactor::TakeColumns(const FrontLayout& front, const FrontLayout
   for (const RowRun& columns : child.to_columns) {
     for (int c = 0; c < columns.length; ++c) {
       const int column = columns.from + c;
-      const double* from =
-          Update(child) + static_cast<std::ptrdiff_t>(column) * child.update_stride;
+      const double* from = Update(child) + StripOffset(child.padded_update_rows, column);
       double* to = Panel(front) + static_cast<std::ptrdiff_t>(front.ColumnOfRow(columns.to + c)) *
                                       front.panel_stride;
       AddRuns(child.to_columns, column, from, to);
@@ -77,8 +76,8 @@ void MultifrontalFactor::TakeUpdate(const FrontLayout& front, const FrontLayout&
       const int column = columns.from + c;
       AddRuns(child.to_update,
               column,
-              Update(child) + static_cast<std::ptrdiff_t>(column) * child.update_stride,
-              Update(front) + static_cast<std::ptrdiff_t>(columns.to + c) * front.update_stride);
+              Update(child) + StripOffset(child.padded_update_rows, column),
+              Update(front) + StripOffset(front.padded_update_rows, columns.to + c));
     }
   }
 }
@@ -91,7 +90,6 @@ void MultifrontalFactor::MakeUpdate(const FrontLayout& front, int num_threads) {
   primal.L21 = PrimalPanel(front) + front.below_row - front.own_row;
   primal.stride = front.panel_stride;
   primal.update = Update(front);
-  primal.update_stride = front.update_stride;
   OuterProduct dual = primal;
   dual.width = front.dual_width;
   dual.L21 = Panel(front) + front.below_row;

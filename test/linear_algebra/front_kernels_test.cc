@@ -1,7 +1,9 @@
 #include "ceres_ed/linear_algebra/front_kernels.h"
 
+#include <cstddef>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
@@ -103,6 +105,17 @@ TEST(FrontKernels, MakeUpdatesOfAnyColumns) {
       EXPECT_TRUE(Eigen::MatrixXd((update - strips).topRows(padded).triangularView<Eigen::Lower>())
                       .isZero(0.0));
 
+      // The same values go to strips.
+      Eigen::VectorXd triangle = Eigen::VectorXd::Zero(StripsSize(padded));
+      OuterProduct packed = product;
+      packed.update = triangle.data();
+      packed.update_stride = 0;
+      AddOuterProduct(packed, 0, padded);
+      for (int c = 0; c < padded; ++c) {
+        const double* column = triangle.data() + StripOffset(padded, c);
+        for (int r = c; r < padded; ++r) ASSERT_EQ(column[r], update(r, c)) << r << " " << c;
+      }
+
       // Added with the opposite sign, the sum is zero.
       product.sign = 1.0;
       product.accumulate = true;
@@ -110,6 +123,23 @@ TEST(FrontKernels, MakeUpdatesOfAnyColumns) {
       EXPECT_TRUE(
           Eigen::MatrixXd(strips.topRows(padded).triangularView<Eigen::Lower>()).isZero(0.0));
     }
+  }
+}
+
+TEST(FrontKernels, StoreALowerTriangleInLittleMoreThanItsSize) {
+  EXPECT_EQ(StripsSize(kRowUnit), std::size_t{kRowUnit * kRowUnit});
+  for (const int rows : {2 * kRowUnit, 20 * kRowUnit}) {
+    std::vector<int> owners(StripsSize(rows), -1);
+    for (int c = 0; c < rows; ++c) {
+      for (int r = c; r < rows; ++r) {
+        const std::ptrdiff_t place = StripOffset(rows, c) + r;
+        ASSERT_GE(place, 0);
+        ASSERT_LT(place, static_cast<std::ptrdiff_t>(owners.size()));
+        EXPECT_EQ(owners[place], -1) << r << " " << c;
+        owners[place] = c;
+      }
+    }
+    EXPECT_EQ(owners.size(), rows * (rows + kRowUnit) / 2u);
   }
 }
 
