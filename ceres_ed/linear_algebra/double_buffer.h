@@ -28,6 +28,7 @@ class DoubleBuffer {
 
  private:
   struct Free {
+    std::size_t size = 0;
     void operator()(double* data) const;
   };
 
