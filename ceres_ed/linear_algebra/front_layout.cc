@@ -120,10 +120,17 @@ void Planner::PlaceRuns() {
 
 void Planner::PlacePieces() {
   std::vector<PanelPiece>& pieces = layout_.pieces;
-  std::vector<std::vector<PanelPiece>> of_front(fronts_.size());
-  std::vector<std::vector<const BlockPiece*>> by_front(fronts_.size());
-  for (const BlockPiece& piece : source_pieces_) {
-    by_front[std::min(front_of_[piece.row], front_of_[piece.column])].push_back(&piece);
+  pieces.reserve(source_pieces_.size());
+  // The pieces of each front, in their order: those of front f end at ends[f].
+  const auto front_of = [&](const BlockPiece& piece) {
+    return std::min(front_of_[piece.row], front_of_[piece.column]);
+  };
+  std::vector<int> ends(fronts_.size() + 1, 0);
+  for (const BlockPiece& piece : source_pieces_) ++ends[front_of(piece) + 1];
+  std::partial_sum(ends.begin(), ends.end(), ends.begin());
+  std::vector<int> by_front(source_pieces_.size());
+  for (std::size_t p = 0; p < source_pieces_.size(); ++p) {
+    by_front[ends[front_of(source_pieces_[p])]++] = static_cast<int>(p);
   }
   std::vector<int> row_of(vertices_.size(), -1);
   for (std::size_t f = 0; f < fronts_.size(); ++f) {
@@ -135,12 +142,13 @@ void Planner::PlacePieces() {
     }
     for (const int v : fronts_[f].columns) row_of[v] = place.RowOfColumn(column_of_[v]);
     place.first_piece = static_cast<int>(pieces.size());
-    for (const BlockPiece* source : by_front[f]) {
-      const bool transposed = layout_.positions[source->row] < layout_.positions[source->column];
-      const int row = transposed ? source->column : source->row;
-      const int col = transposed ? source->row : source->column;
-      pieces.push_back({source->value,
-                        source->stride,
+    for (int p = f == 0 ? 0 : ends[f - 1]; p < ends[f]; ++p) {
+      const BlockPiece& source = source_pieces_[by_front[p]];
+      const bool transposed = layout_.positions[source.row] < layout_.positions[source.column];
+      const int row = transposed ? source.column : source.row;
+      const int col = transposed ? source.row : source.column;
+      pieces.push_back({source.value,
+                        source.stride,
                         vertices_[row].size,
                         vertices_[col].size,
                         row_of[row],

@@ -123,6 +123,8 @@ void CoarseToFine::Conclude(FitResult* result) {
   } else if (fit_.options->covariance && !result->EndedEarly()) {
     MeasureUncertainty(fit_, graph(), state_, ways_, problem_.get(), result);
   }
+  // What follows needs memory of its own.
+  problem_.reset();
   if (result->rigid_only || result->EndedEarly()) return;
   std::optional<DeformationState> rigid = RigidModel(fit_, graph(), state_);
   if (!rigid) return;
