@@ -235,13 +235,18 @@ Matches MatchBothWays(const MovedSource& source,
   // The limit on the distance of a pair follows from the robust deviation of all pairs.
   const double limit =
       std::max(options.resolution, options.max_deviations * matches.robust_distance);
+  const auto is_accepted = [limit](const Candidate& candidate) {
+    return candidate.match.point >= 0 && candidate.IsPlausible() && candidate.distance <= limit;
+  };
+  const auto num_accepted = std::count_if(candidates.begin(), candidates.end(), is_accepted);
+  matches.correspondences.reserve(num_accepted);
+  if (options.with_details) matches.details.reserve(num_accepted);
   double sum_plane = 0.0;
   double sum_point = 0.0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const Candidate& candidate = candidates[i];
-    if (candidate.match.point < 0) continue;
-    ++matches.candidates;
-    if (!candidate.IsPlausible() || candidate.distance > limit) continue;
+    if (candidate.match.point >= 0) ++matches.candidates;
+    if (!is_accepted(candidate)) continue;
     matches.correspondences.push_back(candidate.match);
     if (options.with_details) {
       matches.correspondences.back().detail = static_cast<int>(matches.details.size());

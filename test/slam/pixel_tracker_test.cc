@@ -82,6 +82,21 @@ Eigen::Vector2d PlainStep(const ColorImage& first,
   return hessian.inverse() * right;
 }
 
+// It can go on with the next picture.
+TEST(PixelTracker, TracksNothingOfAPictureThatIsForgotten) {
+  PixelTracker tracker(DenseCorners());
+  const ColorImage picture = TexturedPicture({0, 0}, EvenLight);
+  const std::vector<Eigen::Vector2d> pixels = {{60.0, 50.0}, {80.0, 70.0}};
+  tracker.SetImage(picture);
+  tracker.SetImage(picture);
+  tracker.ForgetPrevious();
+  for (const TrackedPixel& tracked : tracker.Track(pixels, pixels)) EXPECT_FALSE(tracked.found);
+  tracker.SetImage(picture);
+  int found = 0;
+  for (const TrackedPixel& tracked : tracker.Track(pixels, pixels)) found += tracked.found ? 1 : 0;
+  EXPECT_EQ(found, 2);
+}
+
 TEST(PixelTracker, FollowsShiftsToAFractionOfAPixel) {
   for (const Eigen::Vector2d& shift :
        {Eigen::Vector2d(0.0, 0.0), {0.3, -0.4}, {2.5, 1.25}, {-5.6, 3.1}}) {

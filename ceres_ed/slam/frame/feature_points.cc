@@ -95,6 +95,7 @@ bool FeaturePoints::Track(ColorView image,
   ++frame_;
   tracker_.SetImage(image, Measured(surface));
   Follow(surface, map, camera_from_map);
+  tracker_.ForgetPrevious();
   // Many corners that are new in a picture are never found again, and say nothing about the camera.
   const bool continuous = size() > 0 && size() >= kContinuousShare * num_continued_;
   num_continued_ = size();

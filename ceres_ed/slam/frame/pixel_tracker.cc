@@ -169,6 +169,8 @@ void PixelTracker::SetImage(ColorView image, const MaskImage& measured) {
   impl_->BuildPyramid();
 }
 
+void PixelTracker::ForgetPrevious() { impl_->before.clear(); }
+
 GrayLevels PixelTracker::Levels() const {
   const auto view = [](const cv::Mat& image) {
     return ImageView<std::uint8_t>(image.ptr<std::uint8_t>(), image.cols, image.rows);

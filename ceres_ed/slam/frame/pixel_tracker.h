@@ -56,6 +56,10 @@ class PixelTracker {
     return tracked;
   }
 
+  // Frees the previous picture, which is the largest part of the memory. From then on, until the
+  // next call of SetImage(), nothing is tracked.
+  void ForgetPrevious();
+
   // Returns at most `count` corners of the present picture, strongest first, where `allowed` (of
   // the size of the picture) is non-zero, and at a distance from those `taken`.
   std::vector<Eigen::Vector2d> Detect(const MaskImage& allowed,

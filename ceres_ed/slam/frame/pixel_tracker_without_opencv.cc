@@ -11,6 +11,8 @@ PixelTracker::~PixelTracker() = default;
 
 void PixelTracker::SetImage(ColorView /*image*/, const MaskImage& /*measured*/) {}
 
+void PixelTracker::ForgetPrevious() {}
+
 GrayLevels PixelTracker::Levels() const { return {}; }
 
 std::vector<TrackedPixel> PixelTracker::Flow(
