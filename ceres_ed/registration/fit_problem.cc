@@ -148,6 +148,7 @@ void FitProblem::SetMatches(const Matches& matches, double loss_width) {
   details_ = matches.details;
   loss_width_ = loss_width;
   thinned_.clear();
+  thinned_.reserve(correspondences_.size() / kThinning + 1);
   for (std::size_t i = 0; i < correspondences_.size(); i += kThinning) {
     thinned_.push_back(correspondences_[i]);
     thinned_.back().weight *= kThinning;
