@@ -9,13 +9,12 @@
 namespace ceres_ed {
 namespace {
 
-constexpr int kNode = kSplitBlockSize;
+constexpr int kNode = TwoLevelPreconditioner::kNode;
 // The diagonal of the coarse matrix is increased by this part, so that coarse nodes whose fields
 // nearly coincide do not make it singular.
 constexpr double kCoarseShift = 1e-10;
 
-// The largest block of A: a node's columns and rows.
-using NodeBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kNode, kNode>;
+using NodeBlock = TwoLevelPreconditioner::NodeBlock;
 
 // Sets X = B T, where T is the part of Z that takes a coarse node to a fine one:
 // T = weight [I 0; lever^T (x) I_3, I_3].
@@ -36,6 +35,31 @@ void AddFromTheLeft(const AffineProlongation::Part& part, const NodeBlock& X, Su
 }
 
 }  // namespace
+
+// The rows J Z of a dual block, by coarse blocks.
+struct TwoLevelPreconditioner::DualRows {
+  int count = 0;
+  std::vector<int> coarse;
+  std::vector<NodeBlock> blocks;
+
+  void Add(int index, const NodeBlock& block) {
+    const auto found = std::find(coarse.begin(), coarse.begin() + count, index);
+    if (found != coarse.begin() + count) {
+      blocks[found - coarse.begin()] += block;
+      return;
+    }
+    if (count == static_cast<int>(coarse.size())) {
+      coarse.emplace_back();
+      blocks.emplace_back();
+    }
+    coarse[count] = index;
+    blocks[count++] = block;
+  }
+
+  const NodeBlock& Of(int index) const {
+    return blocks[std::find(coarse.begin(), coarse.begin() + count, index) - coarse.begin()];
+  }
+};
 
 TwoLevelPreconditioner::TwoLevelPreconditioner(const PrimalMatrix& matrix,
                                                AffineProlongation prolongation)
@@ -61,7 +85,7 @@ TwoLevelPreconditioner::TwoLevelPreconditioner(const PrimalMatrix& matrix,
 }
 
 void TwoLevelPreconditioner::AddOtherBlocks() {
-  for (int block = num_nodes_; block < matrix_.structure().num_blocks(); ++block) {
+  for (int block = num_nodes_; block < matrix_.num_blocks(); ++block) {
     Part part;
     part.coarse = Z_.num_coarse++;
     part.weight = 1.0;
@@ -77,25 +101,88 @@ BlockStructure TwoLevelPreconditioner::CoarseStructure() const {
   std::vector<int> seen(Z_.num_coarse, -1);
   for (int column = 0; column < Z_.num_coarse; ++column) {
     seen[column] = column;
+    const auto add_block = [&](int block) {
+      for (const Part* part = begin(block); part != end(block); ++part) {
+        if (part->coarse <= column || seen[part->coarse] == column) continue;
+        seen[part->coarse] = column;
+        pairs.push_back({part->coarse, column, true});
+      }
+    };
     for (int c = column_begins_[column]; c < column_begins_[column + 1]; ++c) {
       const int j = column_parts_[c].fine;
       for (const PrimalMatrix::Neighbor* n = matrix_.begin(j); n != matrix_.end(j); ++n) {
-        for (const Part* part = begin(n->block); part != end(n->block); ++part) {
-          if (part->coarse <= column || seen[part->coarse] == column) continue;
-          seen[part->coarse] = column;
-          pairs.push_back({part->coarse, column, true});
+        if (!fine.is_dual(n->block)) {
+          add_block(n->block);
+          continue;
         }
+        ForEachOfDual(n->block, [&](const PrimalMatrix::Neighbor& of) { add_block(of.block); });
       }
     }
   }
   std::vector<int> sizes(Z_.num_coarse, kNode);
-  for (int block = num_nodes_; block < fine.num_blocks(); ++block) {
+  for (int block = num_nodes_; block < matrix_.num_blocks(); ++block) {
     sizes[begin(block)->coarse] = fine.size(block);
   }
-  return BlockStructure(std::move(sizes), pairs, fine.num_dual());
+  return BlockStructure(std::move(sizes), pairs);
 }
 
-void TwoLevelPreconditioner::UpdateColumn(int coarse, std::vector<int>* places) {
+// Calls `visit` with the primal neighbours of a dual block.
+template <typename Visitor>
+void TwoLevelPreconditioner::ForEachOfDual(int dual, const Visitor& visit) const {
+  for (const PrimalMatrix::Neighbor* n = matrix_.begin(dual); n != matrix_.end(dual); ++n) {
+    if (n->block != dual) visit(*n);
+  }
+}
+
+// Computes J Z for the rows J of a dual block, as one block for each coarse block that it sees.
+void TwoLevelPreconditioner::MultiplyDual(int dual, DualRows* rows) const {
+  const BlockStructure& fine = matrix_.structure();
+  const int height = fine.size(dual);
+  rows->count = 0;
+  NodeBlock J;
+  NodeBlock right;
+  ForEachOfDual(dual, [&](const PrimalMatrix::Neighbor& n) {
+    J = Eigen::Map<const Eigen::MatrixXd>(matrix_.values(n.entry), height, fine.size(n.block));
+    for (const Part* part = begin(n.block); part != end(n.block); ++part) {
+      if (IsNode(n.block)) {
+        MultiplyFromTheRight(*part, J, &right);
+      } else {
+        right = J;
+      }
+      rows->Add(part->coarse, right);
+    }
+  });
+}
+
+// Adds the part of J^T J that the dual blocks contribute to one column, where `sum_of(coarse)` is
+// the block of a row.
+template <typename Sum>
+void TwoLevelPreconditioner::AddDuals(int coarse, DualRows* rows, const Sum& sum_of) const {
+  const BlockStructure& fine = matrix_.structure();
+  const auto has_column = [&](int block) {
+    return std::any_of(begin(block), end(block), [&](const Part& p) { return p.coarse == coarse; });
+  };
+  for (int c = column_begins_[coarse]; c < column_begins_[coarse + 1]; ++c) {
+    const int j = column_parts_[c].fine;
+    for (const auto* n = matrix_.end(j); n != matrix_.begin(j) && fine.is_dual((n - 1)->block);) {
+      const int dual = (--n)->block;
+      // It is taken at the first of its blocks that follow this coarse one.
+      const PrimalMatrix::Neighbor* first = matrix_.begin(dual);
+      while (!has_column(first->block)) ++first;
+      if (first->block != j) continue;
+      MultiplyDual(dual, rows);
+      const NodeBlock& column = rows->Of(coarse);
+      for (int r = 0; r < rows->count; ++r) {
+        if (rows->coarse[r] < coarse) continue;
+        sum_of(rows->coarse[r]).noalias() += rows->blocks[r].transpose().lazyProduct(column);
+      }
+    }
+  }
+}
+
+// Computes the blocks of Z^T A Z in one column, with `places` as memory: one entry for each coarse
+// block.
+void TwoLevelPreconditioner::UpdateColumn(int coarse, std::vector<int>* places, DualRows* rows) {
   const BlockStructure& fine = matrix_.structure();
   const BlockStructure& structure = *coarse_structure_;
   for (int e = structure.column_begin(coarse); e < structure.column_begin(coarse + 1); ++e) {
@@ -104,6 +191,11 @@ void TwoLevelPreconditioner::UpdateColumn(int coarse, std::vector<int>* places) 
                 structure.size(structure.entry_row(e)) * structure.size(coarse),
                 0.0);
   }
+  const auto sum_of = [&](int row) {
+    return Eigen::Map<Eigen::MatrixXd>(&coarse_values_[structure.value_offset((*places)[row])],
+                                       structure.size(row),
+                                       structure.size(coarse));
+  };
   NodeBlock block;
   NodeBlock right;
   for (int c = column_begins_[coarse]; c < column_begins_[coarse + 1]; ++c) {
@@ -111,6 +203,7 @@ void TwoLevelPreconditioner::UpdateColumn(int coarse, std::vector<int>* places) 
     const Part& column_part = Z_.parts[column_parts_[c].part];
     for (const PrimalMatrix::Neighbor* n = matrix_.begin(j); n != matrix_.end(j); ++n) {
       const int i = n->block;
+      if (fine.is_dual(i)) break;
       if (std::all_of(begin(i), end(i), [&](const Part& p) { return p.coarse < coarse; })) continue;
       // The block (i, j) of A; the list of j's neighbours has it as (j, i).
       using Values = Eigen::Map<const Eigen::MatrixXd>;
@@ -119,7 +212,7 @@ void TwoLevelPreconditioner::UpdateColumn(int coarse, std::vector<int>* places) 
       } else {
         block = Values(matrix_.values(n->entry), fine.size(j), fine.size(i)).transpose();
       }
-      if (i == j && !fine.is_dual(i)) {
+      if (i == j) {
         for (int r = 0; r < fine.size(i); ++r) {
           block(r, r) += matrix_.diagonal(fine.row_offset(i) + r);
         }
@@ -131,10 +224,7 @@ void TwoLevelPreconditioner::UpdateColumn(int coarse, std::vector<int>* places) 
       }
       for (const Part* part = begin(i); part != end(i); ++part) {
         if (part->coarse < coarse) continue;
-        const int entry = (*places)[part->coarse];
-        Eigen::Map<Eigen::MatrixXd> sum(&coarse_values_[structure.value_offset(entry)],
-                                        structure.size(part->coarse),
-                                        structure.size(coarse));
+        auto sum = sum_of(part->coarse);
         if (IsNode(i)) {
           AddFromTheLeft(*part, right, &sum);
         } else {
@@ -143,16 +233,17 @@ void TwoLevelPreconditioner::UpdateColumn(int coarse, std::vector<int>* places) 
       }
     }
   }
+  AddDuals(coarse, rows, sum_of);
 }
 
 bool TwoLevelPreconditioner::Update(int num_threads) {
   if (!jacobi_.Update(num_threads)) return false;
   ParallelFor(num_threads, Z_.num_coarse, [&](int begin, int end) {
     std::vector<int> places(Z_.num_coarse, -1);
-    for (int c = begin; c < end; ++c) UpdateColumn(c, &places);
+    DualRows rows;
+    for (int c = begin; c < end; ++c) UpdateColumn(c, &places, &rows);
   });
-  Eigen::VectorXd shift = kCoarseShift * coarse_structure_->Diagonal(coarse_values_);
-  shift.tail(shift.size() - coarse_structure_->num_primal_rows()).setZero();
+  const Eigen::VectorXd shift = kCoarseShift * coarse_structure_->Diagonal(coarse_values_);
   return coarse_factor_->Factorize(coarse_values_.data(), shift, num_threads);
 }
 
@@ -160,7 +251,7 @@ void TwoLevelPreconditioner::Apply(const Eigen::VectorXd& x, int num_threads, Ei
   const BlockStructure& fine = matrix_.structure();
   const BlockStructure& structure = *coarse_structure_;
   // Z^T x.
-  ParallelFor(num_threads, Z_.num_coarse - structure.num_dual(), [&](int begin, int end) {
+  ParallelFor(num_threads, Z_.num_coarse, [&](int begin, int end) {
     for (int c = begin; c < end; ++c) {
       auto sum = coarse_rows_.segment(structure.row_offset(c), structure.size(c));
       sum.setZero();
@@ -176,7 +267,6 @@ void TwoLevelPreconditioner::Apply(const Eigen::VectorXd& x, int num_threads, Ei
       }
     }
   });
-  coarse_rows_.tail(structure.num_rows() - structure.num_primal_rows()).setZero();
   const Eigen::VectorXd solution = coarse_factor_->Solve(coarse_rows_);
   jacobi_.Apply(x, num_threads, y);
   ParallelFor(num_threads, matrix_.num_blocks(), [&](int first, int last) {

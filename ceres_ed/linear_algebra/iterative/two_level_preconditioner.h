@@ -21,7 +21,8 @@ namespace ceres_ed {
 // D takes what differs from node to node, and the coarse graph takes what is smooth, which D alone
 // would pass on by one ring in each iteration. So the number of iterations depends on how many
 // nodes one coarse node stands for, rather than on the size of the graph. Blocks that are not those
-// of nodes, such as the camera, are part of both.
+// of nodes, such as the camera, are part of both. Rows of dual blocks are eliminated (A contains
+// their J^T J), so that the coarse matrix has those of coarse nodes alone.
 class TwoLevelPreconditioner final : public Preconditioner {
  public:
   // The first prolongation.num_fine() blocks of the matrix are nodes. `matrix` must outlive this
@@ -31,15 +32,24 @@ class TwoLevelPreconditioner final : public Preconditioner {
   bool Update(int num_threads) override;
   void Apply(const Eigen::VectorXd& x, int num_threads, Eigen::VectorXd* y) override;
 
+  // The largest block of A: a node's columns and rows.
+  static constexpr int kNode = kSplitBlockSize;
+  using NodeBlock = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kNode, kNode>;
+
  private:
   using Part = AffineProlongation::Part;
 
-  // Adds Z for all blocks that are not nodes: each is a coarse block of its own.
+  struct DualRows;
+
+  // Adds Z for all primal blocks that are not nodes: each is a coarse block of its own.
   void AddOtherBlocks();
   BlockStructure CoarseStructure() const;
-  // Computes the blocks of Z^T A Z in one column, with `places` as memory: one entry for each
-  // coarse block.
-  void UpdateColumn(int coarse, std::vector<int>* places);
+  template <typename Visitor>
+  void ForEachOfDual(int dual, const Visitor& visit) const;
+  void MultiplyDual(int dual, DualRows* rows) const;
+  template <typename Sum>
+  void AddDuals(int coarse, DualRows* rows, const Sum& sum_of) const;
+  void UpdateColumn(int coarse, std::vector<int>* places, DualRows* rows);
   bool IsNode(int block) const { return block < num_nodes_; }
   const Part* begin(int block) const { return Z_.parts.data() + Z_.begins[block]; }
   const Part* end(int block) const { return Z_.parts.data() + Z_.begins[block + 1]; }
