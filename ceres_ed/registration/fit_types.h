@@ -61,20 +61,21 @@ struct FitTimes {
 };
 
 // How well the position of every point is determined:
-//   Cov(p) = k (x_p (J_p Z J_p^T + sum_m e_m e_m^T) + mean_w d_w d_w^T),  Z = (J^T W J)^-1
+//   Cov(p) = k (x_p (J_p Z J_p^T + sum_m e_m e_m^T) + M_p + mean_w d_w d_w^T),  Z = (J^T W J)^-1
 // J is the Jacobian of all residuals at the end of the fit, W gives them the weights with which
 // they are in units of their standard deviations (uncertainty/statistical_weights.h), and J_p is
 // the Jacobian of the warped point. e_m is the error of the point if the deformation has one
 // standard deviation of a smooth mode of the whole body (uncertainty/smooth_modes.h), which the
 // priors resist where no data determine it. x_p is 1 where nodes have data, and 1 + r^2 where none
-// has, with the ratio r of the hidden to the seen part: the modes left out grow with it. d_w leads
+// has, with the ratio r of the hidden to the seen part: the modes left out grow with it. M_p is
+// the motion along the surface that the fit has held back (uncertainty/missed_motion.h). d_w leads
 // to where another way of the fit has put the point (uncertainty/way_spread.h): wrong matches,
 // where the ways differ in them. k = kScale is fitted to known errors
 // (scripts/bench_uncertainty.py). The rigid placement is part of it: no prior holds the nodes
 // against a common motion.
 struct FitUncertainty {
   // k, without unit.
-  static constexpr double kScale = 2.0;
+  static constexpr double kScale = 1.7;
 
   // Cov(p) of each source point in the frame of the target, in its squared unit; NaN if a node to
   // which the point is bound is undetermined. Empty if it was not requested or cannot be computed;
