@@ -11,8 +11,12 @@ A folder of a pair has source.ply, target.ply (one view, with its triangles cut 
 rigid motion and with noise), gt.ply, visible.txt, inner.ply and inner_gt.ply. bench_pairs.py takes
 such folders; ed_apply moves inner.ply. It needs python3-numpy and python3-scipy.
 
+With --seed the bodies are those of data/, and everything else is drawn at random: ends, directions, motion,
+dent and noise. A third of these pairs shows the whole surface. Each seed gives other pairs.
+
   scripts/make_elastic_pairs.py build/elastic
   scripts/make_elastic_pairs.py build/elastic --cells=30 --noise=0
+  scripts/make_elastic_pairs.py build/elastic_7 --seed=7 --count=24
 """
 import argparse
 from pathlib import Path
@@ -34,6 +38,9 @@ BODIES = (
     ("stomach_bent", "stomach_partial", (1, 0, 0), (0.3, -1, -0.4), (0.0, -0.05, 0.05), 8, 0.04),
     ("heart_pulled", "heart_partial", (0, 0, 1), (0.9, -0.5, 0.1), (0.0, 0.0, -0.08), 0, 0.0),
 )
+RANDOM_BODIES = ("heart_partial", "kidney_partial", "stomach_partial")
+# Standard deviations on the targets of random pairs, as shares of the diagonal.
+RANDOM_NOISE = (0.0, 0.0005, 0.002)
 # The six tetrahedra of a cell, as corners numbered x + 2 y + 4 z.
 TETRAHEDRA = np.array([(0, 1, 3, 7), (0, 3, 2, 7), (0, 2, 6, 7), (0, 6, 4, 7), (0, 4, 5, 7),
                        (0, 5, 1, 7)])
@@ -171,8 +178,24 @@ def seen(points, triangles, camera):
     return facing & first
 
 
+def random_body(random, number):
+    """Returns a row as in BODIES; the camera of a pair that shows the whole surface is none."""
+    name = RANDOM_BODIES[number % len(RANDOM_BODIES)]
+    axis = np.eye(3)[random.integers(3)] * random.choice([-1, 1])
+    camera = random.normal(size=3)
+    shift = random.normal(size=3)
+    shift *= random.uniform(0.0, 0.1) / np.linalg.norm(shift)
+    dent = random.choice([0.0, random.uniform(0.0, 0.05)])
+    is_whole = number // len(RANDOM_BODIES) % 3 == 2
+    return (f"{name.split('_')[0]}_{number:02d}", name, axis, None if is_whole else camera, shift,
+            random.uniform(-20.0, 20.0), dent)
+
+
 def write_pair(folder, body, cells, noise):
     _, name, axis, camera, shift, turn, dent = body
+    is_whole = camera is None
+    if is_whole:
+        camera = axis[::-1]
     source = ply.read_ply(ROOT / "data" / name / "source.ply")
     points, triangles = ply.points(source), ply.triangles(source)
     size = np.linalg.norm(np.ptp(points, axis=0))
@@ -200,12 +223,12 @@ def write_pair(folder, body, cells, noise):
     bent = lambda p: p + solid.at(p, displacement)
     finer_points, finer = ply.subdivide(points, triangles)
     target = bent(finer_points)
-    visible = finer[seen(target, finer, camera)]
+    visible = finer if is_whole else finer[seen(target, finer, camera)]
     used, index = np.unique(visible, return_inverse=True)
     random = np.random.default_rng(1)
     target = target[used] + noise * size * random.normal(size=(len(used), 3))
     truth = bent(points)
-    seen_vertices = np.unique(triangles[seen(truth, triangles, camera)])
+    seen_vertices = np.unique(triangles if is_whole else triangles[seen(truth, triangles, camera)])
     folder.mkdir(parents=True, exist_ok=True)
     ply.write_ply(folder / "source.ply", points, triangles)
     ply.write_ply(folder / "target.ply", place(target), index.reshape(visible.shape))
@@ -224,7 +247,15 @@ def main():
     parser.add_argument("--cells", type=int, default=24, help="cells along the longest side [24]")
     parser.add_argument("--noise", type=float, default=0.0005,
                         help="standard deviation on the target, share of the diagonal [0.0005]")
+    parser.add_argument("--seed", type=int, help="draw pairs at random from this seed")
+    parser.add_argument("--count", type=int, default=18, help="pairs that are drawn [18]")
     options = parser.parse_args()
+    if options.seed is not None:
+        random = np.random.default_rng(options.seed)
+        for number in range(options.count):
+            body = random_body(random, number)
+            write_pair(options.output / body[0], body, options.cells, random.choice(RANDOM_NOISE))
+        return
     for body in BODIES:
         write_pair(options.output / body[0], body, options.cells, options.noise)
 
