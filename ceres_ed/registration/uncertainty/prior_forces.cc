@@ -16,6 +16,7 @@ constexpr double kStep = 1e-4;
 
 std::vector<double> WeightsOf(const FitProblem& problem) {
   std::vector<double> weights;
+  weights.reserve(problem.builder().num_terms());
   for (int term = 0; term < problem.builder().num_terms(); ++term) {
     weights.push_back(problem.builder().weight(term));
   }
