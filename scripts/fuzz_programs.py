@@ -50,10 +50,12 @@ FIT_FLAGS = {
     "max_angle_deg": ["1", "45", "90", "180"],
     "threads": ["1", "2", "3"],
     "time_limit_s": ["0.001", "0.1", "10"],
+    "covariance": ["true"],
     "linear_solver": ["block", "ceres", "pcg", "auto", "ceres_cgnr"],
     "energy": ["point_to_point", "point_to_plane:loss=huber", "photometric", "point_to_point:weight=0"],
 }
 SLAM_FLAGS = {
+    "covariance": ["true"],
     "mode": ["batch", "two_level", "marginal"],
     "rings": ["0", "2"],
     "camera": ["estimate", "fixed"],
