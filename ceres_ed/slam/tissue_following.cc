@@ -22,6 +22,9 @@ namespace {
 // Widths in deviations: of inliers, and of the losses.
 constexpr double kInlierWidth = 3.0;
 constexpr double kLossWidth = 5.0;
+// The least deviation of inliers, in map units. Where depth is exact the spread of all distances is
+// that of what stands still, and points on what moves would be taken for outliers and dropped.
+constexpr double kLeastInlierDeviation = 0.02;
 // The smallest noise, in map units; no sensor is better than this.
 constexpr double kLeastNoise = 1e-4;
 // The least widths of the losses, and the least deviation of corners, in map units. The spread of
@@ -318,7 +321,8 @@ void Tracker::Measure(const AssociationResult& association, double noise, FrameR
 // measured.
 void Tracker::Fuse(const AssociationResult& association, int frame, double noise) {
   const CameraPose& pose = map_.state().camera_from_map;
-  const double width = kInlierWidth * std::max(association.deviation, noise);
+  const double width =
+      kInlierWidth * std::max({association.deviation, noise, kLeastInlierDeviation});
   for (const Association& m : association.matches) {
     const int slot = visible_[m.visible].slot;
     MapPoint point = map_.point(slot);
