@@ -34,7 +34,9 @@ class CheckConsole : public ConsoleObserver<CheckObserver> {
 
   void OnFindings(const std::vector<Finding>& findings) override {
     if (json_) {
-      console().Summarize(CheckReport(settings_, findings).dump(2) + "\n");
+      console().Summarize(CheckReport(settings_, findings)
+                              .dump(2, ' ', false, nlohmann::json::error_handler_t::replace) +
+                          "\n");
       return;
     }
     std::string lines;

@@ -55,7 +55,7 @@ std::string ProgressJson(const FrameRecord& record, int done, int total, double 
   line["done"] = done;
   line["total"] = total;
   line["frames_per_s"] = frames_per_s;
-  return line.dump() + "\n";
+  return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string ProgressNote(const FrameRecord& record, double frames_per_s) {

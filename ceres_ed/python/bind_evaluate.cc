@@ -40,7 +40,8 @@ Evaluation EvaluateSurfaces(const py::object& result_object,
 }
 
 py::object ToDict(const nlohmann::ordered_json& report) {
-  return py::module_::import("json").attr("loads")(report.dump());
+  return py::module_::import("json").attr("loads")(
+      report.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 // Keeps the figures of a sequence; Ctrl-C ends the evaluation.

@@ -141,8 +141,10 @@ Status WhatIsWrong(std::string_view bytes) {
     return Status::Error("is no checkpoint, expected one that a run has left");
   }
   if (file.value("version", json()) != kCheckpointVersion) {
-    return Status::Error("is of checkpoint version " + file.value("version", json()).dump() +
-                         ", expected " + std::to_string(kCheckpointVersion));
+    return Status::Error(
+        "is of checkpoint version " +
+        file.value("version", json()).dump(-1, ' ', false, json::error_handler_t::replace) +
+        ", expected " + std::to_string(kCheckpointVersion));
   }
   std::vector<std::uint8_t> probe(sizeof(kProbe));
   std::memcpy(probe.data(), &kProbe, sizeof(kProbe));

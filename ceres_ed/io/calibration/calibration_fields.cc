@@ -67,8 +67,9 @@ StatusOr<std::vector<double>> ReadNumbers(const std::string& path,
   }
   std::vector<double> numbers;
   if (!AppendAll(*field, &numbers)) {
-    return Status::Error(path + ": " + name + " is " + Quoted(field->dump()) +
-                         ", expected finite numbers");
+    // Bytes that are no text would end the program.
+    const std::string text = field->dump(-1, ' ', false, json::error_handler_t::replace);
+    return Status::Error(path + ": " + name + " is " + Quoted(text) + ", expected finite numbers");
   }
   return numbers;
 }
