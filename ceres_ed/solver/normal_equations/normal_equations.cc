@@ -73,6 +73,9 @@ void NormalEquations::Build(const ProblemBuilder& builder,
     variable_nodes_.push_back(j);
   }
   AddResiduals(builder, selected_);
+  // Short lists are needed again in the next frame or round; long ones are a part of the peak.
+  constexpr std::size_t kLongList = 100000;
+  if (selected_.capacity() > kLongList) std::vector<SelectedResidual>().swap(selected_);
   if (dual_residuals == DualResiduals::kWhereTheyPay) {
     ChooseDualPoints();
     ChooseDualItems();

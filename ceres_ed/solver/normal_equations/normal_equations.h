@@ -209,6 +209,7 @@ class NormalEquations {
                              : item.num_parts * (item.num_parts + 1) / 2;
   }
   int NumGroupSlots(const PointGroup& group) const;
+  std::size_t NumSlots() const;
   int DiagonalSlot(int group, int node) const;
   bool VariesCamera(const PointGroup& group) const { return group.has_camera && camera_variable_; }
 

@@ -56,10 +56,19 @@ void NormalEquations::AddGroupSlots(const PointGroup& group, const DeformationGr
   AddSlot(num_variable_nodes(), num_variable_nodes(), true);
 }
 
+// Returns how many slots AddSlots() adds.
+std::size_t NormalEquations::NumSlots() const {
+  std::size_t count = 3 * edges_.size() + rotations_.size();
+  for (const PointGroup& group : points_.groups()) count += NumGroupSlots(group);
+  for (const Item& item : items_) count += NumItemSlots(item);
+  return count;
+}
+
 void NormalEquations::AddSlots(const DeformationGraph& graph) {
   group_slots_.clear();
   group_blocks_.clear();
   group_positions_.clear();
+  slots_.reserve(NumSlots());
   for (const PointGroup& group : points_.groups()) {
     group_slots_.push_back(static_cast<int>(slots_.size()));
     AddGroupSlots(group, graph);
