@@ -104,8 +104,16 @@ StatusOr<std::unique_ptr<DepthSource>> DepthSource::Create(std::unique_ptr<Depth
   return StatusOr<std::unique_ptr<DepthSource>>(std::move(source));
 }
 
+StatusOr<DepthFrame> DepthSource::LoadPictures(int i, FrameProblem* problem) const {
+  return sequence_->Load(i, problem);
+}
+
 StatusOr<DepthFrame> DepthSource::Load(int i, FrameProblem* problem) const {
-  StatusOr<DepthFrame> frame = sequence_->Load(i, problem);
+  return FindDepth(LoadPictures(i, problem));
+}
+
+StatusOr<DepthFrame> DepthSource::FindDepth(StatusOr<DepthFrame> pictures) const {
+  StatusOr<DepthFrame> frame = std::move(pictures);
   if (!frame.ok() || !is_stereo()) return frame;
   const Timer timer;
   StereoDepth found = matcher_->Match(frame->color, frame->right, frame->mask);

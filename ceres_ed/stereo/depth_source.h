@@ -49,6 +49,10 @@ class DepthSource {
   // the rectified left picture and its mask; `right` is empty then. The same frame gives
   // the same bytes in any order and at any number of threads.
   StatusOr<DepthFrame> Load(int i, FrameProblem* problem = nullptr) const;
+  // The two steps of Load(): decoding, and the comparison of stereo pictures, which takes most of
+  // the time. An error is passed on.
+  StatusOr<DepthFrame> LoadPictures(int i, FrameProblem* problem = nullptr) const;
+  StatusOr<DepthFrame> FindDepth(StatusOr<DepthFrame> pictures) const;
 
   // Returns only the colour picture of frame i, of a stereo sequence the rectified left one, with
   // the size of the camera. It is empty if there is none.

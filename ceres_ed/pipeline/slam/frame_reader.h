@@ -7,6 +7,7 @@
 #include <ceres_ed/stereo/depth_source.h>
 #include <ceres_ed/util/status.h>
 
+#include <deque>
 #include <future>
 
 namespace ceres_ed {
@@ -19,21 +20,32 @@ struct ReadFrame {
 
 class FrameReader {
  public:
-  // Reads ahead on another thread if `num_threads` > 1. `source` must outlive this.
-  FrameReader(const DepthSource& source, int num_threads)
-      : source_(source), reads_ahead_(num_threads > 1) {}
+  // Reads ahead on other threads if `num_threads` > 1: the next frame, or, of stereo pictures,
+  // whose comparison takes longer than a frame is processed, as many as there are threads, up to
+  // kMostAhead. `source` must outlive this.
+  FrameReader(const DepthSource& source, int num_threads);
 
-  // Returns frame `index`, and starts to read the next one in the background if it reads ahead.
+  // Returns frame `index`, and starts to read the next ones in the background if it reads ahead.
   ReadFrame Read(int index);
 
  private:
-  static ReadFrame Load(const DepthSource& source, int index);
+  struct Pending {
+    int index = -1;
+    std::future<ReadFrame> frame;
+  };
+
+  // Each frame read ahead takes memory.
+  static constexpr int kMostAhead = 3;
+
+  void ReadAhead(int index);
 
   const DepthSource& source_;
-  bool reads_ahead_;
-  // The read of frame `next_index_` in the background; invalid if there is none.
-  std::future<ReadFrame> next_;
-  int next_index_ = -1;
+  int num_ahead_;
+  // The frames that are read in the background, in the order of their indices.
+  std::deque<Pending> ahead_;
+  // Is ready when the pictures of the last of them are decoded: videos go forward only, so that
+  // pictures are decoded one after the other. Invalid before the first one.
+  std::shared_future<void> decoded_;
 };
 
 }  // namespace ceres_ed
