@@ -137,6 +137,11 @@ Eigen::MatrixXd BlockCholesky::TrailingFactor() const {
   return trailing;
 }
 
+double BlockCholesky::LogDeterminant() const {
+  CHECK_EQ(impl_->structure.num_dual(), 0);
+  return impl_->factor.LogDeterminant();
+}
+
 SelectedInverse BlockCholesky::Invert() const {
   return SelectedInverse(impl_->structure, impl_->vertices, impl_->factor);
 }

@@ -63,6 +63,10 @@ class BlockCholesky {
   // diagonal.
   Eigen::MatrixXd TrailingFactor() const;
 
+  // Returns the logarithm of the determinant of the matrix of the last successful factor, for a
+  // structure without dual blocks.
+  double LogDeterminant() const;
+
   // Returns the entries of the inverse at all places where the factor may be non-zero, with the
   // last successful factor of a structure without dual blocks. This object must outlive the result.
   SelectedInverse Invert() const;

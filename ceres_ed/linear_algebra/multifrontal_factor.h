@@ -35,6 +35,9 @@ class MultifrontalFactor {
   void ChangeSignOfDualRows(Eigen::VectorXd* ordered) const;
   void SolveBackward(Eigen::VectorXd* ordered);
 
+  // Returns log det of the matrix, which must have no dual rows.
+  double LogDeterminant() const;
+
   // Returns the last front's own rows and columns of L, with zeros above the diagonal.
   Eigen::MatrixXd LastTriangle() const;
 

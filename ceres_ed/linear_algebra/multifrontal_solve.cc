@@ -103,6 +103,14 @@ void MultifrontalFactor::SolveBackward(Eigen::VectorXd* ordered) {
   }
 }
 
+double MultifrontalFactor::LogDeterminant() const {
+  double sum = 0.0;
+  for (const FrontLayout& front : layout_.fronts) {
+    sum += 2.0 * OwnColumns(front).diagonal().array().log().sum();
+  }
+  return sum;
+}
+
 Eigen::MatrixXd MultifrontalFactor::LastTriangle() const {
   const FrontLayout& front = layout_.fronts.back();
   Eigen::MatrixXd triangle = Eigen::MatrixXd::Zero(front.width, front.width);

@@ -92,6 +92,19 @@ BlockStructure Sheet(int columns, int rows, const SharePoints& share_points) {
   return BlockStructure(sizes, pairs);
 }
 
+TEST(BlockCholesky, KnowsTheDeterminant) {
+  const BlockStructure structure = Sheet(6, 5, [](int a, int b) { return a < 12 && b < 12; });
+  const std::vector<double> values = RandomValues(structure, 7);
+  const Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(structure.num_rows(), 60.0);
+  Eigen::MatrixXd dense = DenseOf(structure, values);
+  dense.diagonal() += diagonal;
+  BlockCholesky cholesky(structure);
+  ASSERT_TRUE(cholesky.Factorize(values.data(), diagonal));
+  const double expected =
+      2.0 * Eigen::MatrixXd(dense.llt().matrixL()).diagonal().array().log().sum();
+  EXPECT_NEAR(cholesky.LogDeterminant(), expected, 1e-11 * expected);
+}
+
 TEST(BlockCholesky, EliminatesLoneHeadsFirst) {
   // The nodes of the left half share points, so that there are nodes of both kinds and a border
   // between them.
