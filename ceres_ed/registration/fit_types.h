@@ -12,6 +12,7 @@
 #include <ceres_ed/registration/fit_options.h>
 #include <ceres_ed/solver/solver_types.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,13 @@ struct FitResult {
   Similarity rigid;
   // 1 for nodes that an observation depended on in the last round (PR nodes), else 0.
   std::vector<char> point_relevant;
+  // With SolveMode::kTwoLevel: the number of PI nodes that Level I moved in the last round.
+  int active_hidden = 0;
+  // With ActiveSetRule::kInformation: the energy that the held nodes would lose at once, as a share
+  // of the energy of Level I, and the mutual information between observed and held nodes in nats
+  // (solver/decoupling/information_loss.h). They are NaN if they were not measured.
+  double held_share = std::numeric_limits<double>::quiet_NaN();
+  double information_lost = std::numeric_limits<double>::quiet_NaN();
   // The matches of the last round, without unit except for the rms values (in the target's unit;
   // after the finish).
   Matches matches;

@@ -2,6 +2,7 @@
 
 #include <ceres_ed/registration/fit_progress.h>
 #include <ceres_ed/registration/moving_samples.h>
+#include <ceres_ed/solver/decoupling/information_loss.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,9 @@ constexpr double kPerLength = 100.0;
 // the last one match 1 / kShareOfResolutions of them.
 constexpr int kShareOfSteps = 2;
 constexpr int kShareOfResolutions = 8;
+
+// The information that is lost is not measured on larger graphs: it takes a factor of all nodes.
+constexpr int kMostMeasuredNodes = 20000;
 
 class NonrigidLoop {
  public:
@@ -49,6 +53,7 @@ class NonrigidLoop {
   void Match();
   SolveSummary Solve(int max_iterations);
   void MeasureInitialEnergy();
+  void MeasureInformationLost();
   void RecordRound();
   bool Stopped() { return MustEnd(fit_, result_); }
   // Asks whether the next step is worth its time.
@@ -70,6 +75,8 @@ class NonrigidLoop {
   std::vector<int> target_samples_;
   MatchMemory memory_;
   double energy_ = 0.0;
+  // The PI nodes that the last Level I moved.
+  std::vector<int> active_hidden_;
   double stiffness_ = 1.0;
   bool initial_energy_known_ = false;
 };
@@ -109,6 +116,9 @@ SolveSummary NonrigidLoop::Solve(int max_iterations) {
     (i == 0 ? result_->times.level1 : result_->times.level2) += level.solve_time_s;
   }
   result_->solver_iterations += summary.TotalIterations();
+  result_->held_share = summary.active_set.held_share;
+  active_hidden_ = std::move(summary.active_set.hidden_nodes);
+  result_->active_hidden = static_cast<int>(active_hidden_.size());
   energy_ = summary.final_energy;
   return summary;
 }
@@ -120,6 +130,20 @@ void NonrigidLoop::MeasureInitialEnergy() {
   result_->initial_energy =
       problem_->builder().Evaluate(DeformationState(graph_.graph.num_nodes()));
   problem_->SetStiffness(stiffness_);
+}
+
+// Computes what the observed nodes owe to the held ones, once for a fit that asked for it.
+void NonrigidLoop::MeasureInformationLost() {
+  const StrategyOptions& strategy = options_.strategy;
+  if (strategy.mode != SolveMode::kTwoLevel || strategy.active != ActiveSetRule::kInformation ||
+      graph_.graph.num_nodes() > kMostMeasuredNodes) {
+    return;
+  }
+  std::vector<char> moved = result_->point_relevant;
+  for (const int node : active_hidden_) moved[node] = 1;
+  const StatusOr<double> lost = MeasureInformationLoss(
+      problem_->builder(), result_->point_relevant, moved, *state_, options_.num_threads);
+  if (lost.ok()) result_->information_lost = *lost;
 }
 
 void NonrigidLoop::RecordRound() {
@@ -196,6 +220,7 @@ void NonrigidLoop::Run() {
   if (plan_.is_last || outcome == RoundOutcome::kStopped) {
     if (!initial_energy_known_) MeasureInitialEnergy();
     result_->final_energy = problem_->builder().Evaluate(*state_);
+    MeasureInformationLost();
   }
 }
 

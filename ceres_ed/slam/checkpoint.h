@@ -27,7 +27,7 @@
 namespace ceres_ed {
 
 // The version of the lists in Exchange(). Checkpoints of other versions are refused.
-inline constexpr int kCheckpointVersion = 6;
+inline constexpr int kCheckpointVersion = 7;
 
 // Saves or loads named values. Loading never crashes: if a value is missing or has another size,
 // its variable does not change and status() becomes an error.

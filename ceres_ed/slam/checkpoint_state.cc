@@ -151,13 +151,23 @@ void FeaturePoints::Exchange(int num_nodes, CheckpointArchive* archive) {
   archive->Leave();
 }
 
-void Levels::ForgetSolvers() { solver_ = MakeSolver(); }
+void Levels::ForgetSolvers() {
+  const ActiveSet::Contents active =
+      solver_ != nullptr ? solver_->active_set().Save() : ActiveSet::Contents();
+  solver_ = MakeSolver();
+  solver_->active_set().Load(active);
+}
 
 void Levels::Exchange(CheckpointArchive* archive) {
   archive->Enter("levels");
   ExchangeNodes("point_relevant", &point_relevant_, archive);
   ExchangeNodes("moved", &moved_, archive);
   pending_.Exchange(archive);
+  ActiveSet::Contents active = solver_->active_set().Save();
+  archive->Array("active", &active.nodes);
+  archive->Array("active_judged", &active.judged);
+  archive->Value("active_moves_unjudged", &active.moves_unjudged);
+  if (!archive->saving()) solver_->active_set().Load(active);
   archive->Leave();
 }
 

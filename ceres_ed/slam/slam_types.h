@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -118,8 +119,10 @@ struct FrameReport {
   double foreground = 0.0;
   // The root mean square distance of the inliers from their planes, in metres.
   double rms_plane = 0.0;
-  // The energy of Level I, without unit.
+  // The energy of Level I, without unit, and the share of it that the held nodes would lose at once
+  // (ActiveSetRule::kInformation; NaN if it was not measured).
   double energy = 0.0;
+  double held_share = std::numeric_limits<double>::quiet_NaN();
   int iterations = 0;
   // The residual of a user's energy that could not be evaluated, in a sentence that names it; empty
   // if there was none. The level to which it belongs has not moved anything.

@@ -164,6 +164,7 @@ FrameObservations Tracker::FollowSeen(const ObservedSurface& surface, FrameRepor
     report->active = level.variable_nodes - level.marginalized;
     report->marginalized = level.marginalized;
     report->energy = level.energy;
+    report->held_share = level.held_share;
     report->iterations += level.iterations;
     report->times.level1 += timer.Restart();
   };

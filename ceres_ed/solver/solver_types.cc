@@ -50,6 +50,18 @@ const OptionTable<StrategyOptions>& StrategyOptions::Rows() {
           .In(AtLeast(0))
           .OnResume(ResumeRule::kNoted)
           .Main(),
+      Row(&O::active,
+          "active",
+          "Which unobserved nodes level I of two_level moves: fixed rings, or those that would "
+          "lose "
+          "the most energy if they were held.")
+          .OnResume(ResumeRule::kNoted),
+      Row(&O::active_bound,
+          "active_bound",
+          "The energy that held nodes may lose with active=information, as a share of the energy "
+          "of level I.")
+          .In(AtLeast(0))
+          .OnResume(ResumeRule::kNoted),
       Row(&O::boundary_edges,
           "boundary",
           "Whether two_level keeps or cuts the edges between nodes of level I and the rest.")

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -104,6 +105,15 @@ struct LevelSummary {
   double solve_time_s = 0.0;
 };
 
+// The PI nodes that a Level I of kTwoLevel has moved, and what it costs to hold the others.
+struct ActiveSetSummary {
+  // In ascending order.
+  std::vector<int> hidden_nodes;
+  // With kInformation: the energy that the held nodes would lose at once if they were released, as
+  // a share of the energy of Level I (decoupling/active_set.h); NaN if it is not known.
+  double held_share = std::numeric_limits<double>::quiet_NaN();
+};
+
 // The result of a solve. Its initial status is failed.
 struct SolveSummary {
   SolveStatus status = SolveStatus::kFailed;
@@ -116,6 +126,7 @@ struct SolveSummary {
   // The levels in the order in which they were solved: one level for batch, or Level I and Level
   // II.
   std::vector<LevelSummary> levels;
+  ActiveSetSummary active_set;
 
   // Returns false if the solve failed; the state is then unchanged.
   bool IsUsable() const { return status != SolveStatus::kFailed; }
@@ -141,11 +152,28 @@ constexpr std::array<NamedValue<SolveMode>, 3> NamesOf(SolveMode) {
            {"marginal", SolveMode::kMarginal}}};
 }
 
+// Which PI nodes Level I of kTwoLevel moves.
+enum class ActiveSetRule {
+  // Those within StrategyOptions::rings of a PR node.
+  kRings,
+  // Those that would lose the most energy by being held (decoupling/active_set.h).
+  kInformation,
+};
+
+constexpr std::array<NamedValue<ActiveSetRule>, 2> NamesOf(ActiveSetRule) {
+  return {{{"rings", ActiveSetRule::kRings}, {"information", ActiveSetRule::kInformation}}};
+}
+
 // The strategy of a solve, and its treatment of the boundary.
 struct StrategyOptions {
   SolveMode mode = SolveMode::kBatch;
   // The number of rings of PI nodes that Level I moves as well; >= 0, default 2.
   int rings = 2;
+  // For kTwoLevel: how the PI nodes that Level I moves are chosen; default kRings.
+  ActiveSetRule active = ActiveSetRule::kRings;
+  // For kInformation: the energy that the held nodes may lose, as a share of the energy of Level I;
+  // without unit, >= 0, default 1e-4. With 0 every PI node becomes active that feels a force.
+  double active_bound = 1e-4;
   // For kTwoLevel: whether the edges of the boundary are kept or cut; default kKeep.
   BoundaryEdges boundary_edges = BoundaryEdges::kKeep;
   LinearSolver linear_solver = LinearSolver::kBlock;

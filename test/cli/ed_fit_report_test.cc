@@ -51,6 +51,23 @@ TEST_F(EdFitTest, JudgesARingOnAnotherBody) {
   EXPECT_TRUE(Exists("failed.ply"));
 }
 
+TEST_F(EdFitTest, ReportsTheActiveSet) {
+  const std::string report = "--report=" + (dir_ / "report.json");
+  ASSERT_EQ(FitPair({report}).exit_code, 0);
+  EXPECT_TRUE(Report()["active_set"].is_null());
+  ASSERT_EQ(FitPair({report, "--mode=two_level"}).exit_code, 0);
+  EXPECT_EQ(Report()["active_set"]["rule"], "rings");
+  EXPECT_TRUE(Report()["active_set"]["bound"].is_null());
+  ASSERT_EQ(FitPair({report, "--mode=two_level", "--active=information", "--active_bound=0.001"})
+                .exit_code,
+            0);
+  const nlohmann::json set = Report()["active_set"];
+  EXPECT_EQ(set["rule"], "information");
+  EXPECT_EQ(set["bound"], 0.001);
+  EXPECT_LE(set["pi"], Report()["nodes"]["pi"]);
+  EXPECT_GE(set["information_lost"], 0.0);
+}
+
 TEST_F(EdFitTest, ReportsEveryFieldWithItsType) {
   ASSERT_EQ(FitPair({"--report=" + (dir_ / "report.json")}).exit_code, 0);
   const nlohmann::json report = Report();

@@ -146,7 +146,7 @@ TEST(Checkpoint, SaysOfWhatVersionAnOlderOneIs) {
                               {"payload", nlohmann::json::binary({1, 2, 3})}};
   std::string bytes;
   nlohmann::json::to_cbor(old, bytes);
-  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 6"));
+  EXPECT_THAT(OpenError(bytes), HasSubstr("is of checkpoint version 2, expected 7"));
 }
 
 TEST(Checkpoint, SavesRowsAsTheyLieInMemory) {
@@ -272,6 +272,31 @@ TEST(Checkpoint, ALoadedRunGoesOnAsTheSavedOne) {
   EXPECT_GT(one.back().features, 0);
   EXPECT_EQ(one.back().energy, other.back().energy);
   EXPECT_EQ(one.back().features, other.back().features);
+  EXPECT_TRUE(SaveSlam(saved.get()) == SaveSlam(loaded.get()));
+}
+
+TEST(Checkpoint, KeepsTheActiveSet) {
+  SlamOptions options;
+  options.levels.strategy.active = ActiveSetRule::kInformation;
+  options.levels.strategy.active_bound = 1e-4;
+  // The camera travels along a strip, so that tissue stays behind.
+  const ShortSequence& sequence = StripSequence();
+  const std::unique_ptr<DeformableSlam> saved = MakeSlam(sequence.camera, options);
+  FrameReport report;
+  for (int k = 0; k < 5; ++k) report = saved->Process(sequence.Frame(k));
+  EXPECT_GT(report.active, report.point_relevant);
+  const std::string bytes = SaveSlam(saved.get());
+  const std::unique_ptr<DeformableSlam> loaded = MakeSlam(sequence.camera, options);
+  const auto reader = CheckpointReader::Open(bytes);
+  ASSERT_TRUE(reader.ok());
+  loaded->Exchange(reader->get());
+  ASSERT_TRUE((*reader)->status().ok()) << (*reader)->status().message();
+  for (int k = 5; k < 8; ++k) {
+    const FrameReport one = saved->Process(sequence.Frame(k));
+    const FrameReport other = loaded->Process(sequence.Frame(k));
+    EXPECT_EQ(one.active, other.active) << "frame " << k;
+    EXPECT_EQ(one.energy, other.energy) << "frame " << k;
+  }
   EXPECT_TRUE(SaveSlam(saved.get()) == SaveSlam(loaded.get()));
 }
 

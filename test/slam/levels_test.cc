@@ -68,6 +68,45 @@ TEST(Levels, LevelOneEqualsThatOfTheWholeGraph) {
 
 // Ceres reaches the same minimum by other steps, up to the square root of the rounding error of the
 // energy.
+// What a bound that nothing exceeds releases is nothing.
+TEST(Levels, ByInformationWithoutABoundEqualNoRings) {
+  LevelScene scene;
+  LevelScene other;
+  LevelsOptions options = ThreeSteps(0, BoundaryEdges::kKeep);
+  MakeLevels(options)->SolveLevelOne(scene.observations, nullptr, &scene.map);
+  options.strategy.active = ActiveSetRule::kInformation;
+  options.strategy.active_bound = std::numeric_limits<double>::infinity();
+  const auto levels = MakeLevels(options);
+  levels->BeginFrame();
+  const LevelReport report = levels->SolveLevelOne(other.observations, nullptr, &other.map);
+  EXPECT_EQ(report.variable_nodes, 16);
+  EXPECT_GT(report.held_share, 0.0);
+  // The window is larger, so sums have another order.
+  EXPECT_LT(LargestDifference(scene.map.state(), other.map.state()), 1e-14);
+}
+
+// The set reaches the last node within some solves of a frame. Where it ends, batch stays.
+TEST(Levels, ByInformationWithABoundOfZeroEqualBatch) {
+  LevelScene scene;
+  LevelsOptions options = ExactLevels(0, BoundaryEdges::kKeep);
+  LevelsOptions batch = options;
+  batch.strategy.mode = SolveMode::kBatch;
+  options.strategy.active = ActiveSetRule::kInformation;
+  options.strategy.active_bound = 0.0;
+  const auto levels = MakeLevels(options);
+  levels->BeginFrame();
+  LevelReport report;
+  for (int k = 0; k < 8 && report.variable_nodes < 14 * 4; ++k) {
+    report = levels->SolveLevelOne(scene.observations, nullptr, &scene.map);
+  }
+  EXPECT_EQ(report.variable_nodes, 14 * 4);
+  const DeformationState found = scene.map.state();
+  const double energy =
+      MakeLevels(batch)->SolveLevelOne(scene.observations, nullptr, &scene.map).energy;
+  EXPECT_NEAR(report.energy, energy, 1e-10 * energy);
+  EXPECT_LT(LargestDifference(scene.map.state(), found), 1e-6);
+}
+
 TEST(Levels, LevelOneEndsWhereCeresDoes) {
   LevelScene scene;
   const LevelsOptions options = ExactLevels(2, BoundaryEdges::kKeep);

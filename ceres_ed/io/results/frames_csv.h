@@ -17,7 +17,7 @@ namespace ceres_ed {
 // t_write. t_stereo is the time of comparing stereo pictures, which may be done during the previous
 // frame, and valid_share the share of their pixels whose depth was found. NaN, which is an empty
 // cell, means that a value is not known for this frame.
-inline constexpr std::array<const char*, 37> kFrameColumns = {
+inline constexpr std::array<const char*, 38> kFrameColumns = {
     "t_total",         "t_load",
     "t_associate",     "t_camera",
     "t_level1",        "t_level2",
@@ -36,7 +36,7 @@ inline constexpr std::array<const char*, 37> kFrameColumns = {
     "explained",       "overlap",
     "weak_directions", "tentative",
     "foreground",      "t_stereo",
-    "valid_share"};
+    "valid_share",     "held_share"};
 
 // One row.
 struct FrameRecord {

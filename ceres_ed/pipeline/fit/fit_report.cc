@@ -34,6 +34,20 @@ ordered_json NodesReport(const FitResult& result) {
       {"total", total}, {"pr", pr}, {"pi", total - pr}, {"edges", result.warp.graph.num_edges()}};
 }
 
+// Returns which PI nodes Level I moved, and what it cost to hold the others.
+ordered_json ActiveSetReport(const StrategyOptions& strategy, const FitResult& result) {
+  if (strategy.mode != SolveMode::kTwoLevel) return nullptr;
+  const auto known = [](double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+  };
+  const bool by_information = strategy.active == ActiveSetRule::kInformation;
+  return {{"rule", NameOf(strategy.active)},
+          {"pi", result.active_hidden},
+          {"bound", by_information ? ordered_json(strategy.active_bound) : ordered_json(nullptr)},
+          {"held_share", known(result.held_share)},
+          {"information_lost", known(result.information_lost)}};
+}
+
 // Returns a name for a term that `terms` does not have: a user may add an energy with the name of
 // another one, and then the names get numbers.
 std::string FreeName(const ordered_json& terms, const std::string& label) {
@@ -254,6 +268,7 @@ ordered_json FitReport(const FitRun& run) {
       {"source", CloudReport(run.files->source)},
       {"target", CloudReport(run.files->target)},
       {"nodes", NodesReport(result)},
+      {"active_set", ActiveSetReport(run.settings->options.strategy, result)},
       {"inliers", result.matches.inliers},
       {"outer_iterations", result.outer_iterations},
       {"solver_iterations", result.solver_iterations},

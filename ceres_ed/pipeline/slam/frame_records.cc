@@ -65,6 +65,7 @@ FrameRecord MakeFrameRecord(const FrameReport& report, const DeformableSlam& sla
   record["weak_directions"] = report.weak_directions;
   record["tentative"] = report.tentative;
   record["foreground"] = report.foreground;
+  record["held_share"] = report.held_share;
   return record;
 }
 

@@ -312,6 +312,8 @@ class FitOptions:
     names: ClassVar[tuple[str, ...]]
     mode: Mode
     rings: int
+    active: Literal["rings", "information"]
+    active_bound: float
     boundary: Boundary
     linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"]
     preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"]
@@ -377,7 +379,9 @@ class FitOptions:
     threads: int
     time_limit_s: float
     def __init__(
-            self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
+            self, *, mode: Mode = ..., rings: int = ...,
+            active: Literal["rings", "information"] = ..., active_bound: float = ...,
+            boundary: Boundary = ...,
             linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
             preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
             relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
@@ -523,7 +527,8 @@ class SurfaceFitter:
     def __init__(
             self, source: Surface, options: Optional[FitOptions] = None, *,
             energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
-            rings: int = ..., boundary: Boundary = ...,
+            rings: int = ..., active: Literal["rings", "information"] = ...,
+            active_bound: float = ..., boundary: Boundary = ...,
             linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
             preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
             relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
@@ -654,6 +659,8 @@ class TrackerOptions:
     names: ClassVar[tuple[str, ...]]
     mode: Mode
     rings: int
+    active: Literal["rings", "information"]
+    active_bound: float
     boundary: Boundary
     linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"]
     preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"]
@@ -704,7 +711,9 @@ class TrackerOptions:
     surface_max_slope_noise: float
     surface_max_slope_deg: float
     def __init__(
-            self, *, mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
+            self, *, mode: Mode = ..., rings: int = ...,
+            active: Literal["rings", "information"] = ..., active_bound: float = ...,
+            boundary: Boundary = ...,
             linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
             preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
             relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
@@ -814,7 +823,8 @@ class Tracker:
     def __init__(
             self, intrinsics: Camera, options: Optional[TrackerOptions] = None, *,
             energies: Optional[Energies] = None, plugin: Optional[Plugins] = None, mode: Mode = ...,
-            rings: int = ..., boundary: Boundary = ...,
+            rings: int = ..., active: Literal["rings", "information"] = ...,
+            active_bound: float = ..., boundary: Boundary = ...,
             linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
             preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
             relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,
@@ -929,7 +939,8 @@ def fit(
         source_landmarks: Optional[AnyLandmarks] = None,
         target_landmarks: Optional[AnyLandmarks] = None,
         landmark_use: Literal["fit", "measure"] = "fit", mesh_space: MeshSpace = "auto",
-        mode: Mode = ..., rings: int = ..., boundary: Boundary = ...,
+        mode: Mode = ..., rings: int = ..., active: Literal["rings", "information"] = ...,
+        active_bound: float = ..., boundary: Boundary = ...,
         linear_solver: Literal["ceres", "block", "pcg", "auto", "ceres_cgnr"] = ...,
         preconditioner: Literal["two_level", "block_jacobi", "incomplete_cholesky"] = ...,
         relinearize_above: float = ..., marginal_reach: Union[int, Literal["all"]] = ...,

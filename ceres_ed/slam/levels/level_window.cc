@@ -62,8 +62,12 @@ LevelWindow LevelWindowBuilder::Build(const DeformationGraph& graph,
                                       const Decoupling& nodes) {
   std::vector<int> variable = nodes.eliminated.nodes();
   variable.insert(variable.end(), nodes.moved.nodes().begin(), nodes.moved.nodes().end());
+  const std::vector<int>& candidates = nodes.candidates.nodes();
+  variable.insert(variable.end(), candidates.begin(), candidates.end());
   LevelWindow window = Build(graph, state, variable, /*held=*/{});
   window.num_eliminated = nodes.eliminated.size();
+  window.num_candidates = nodes.candidates.size();
+  window.num_variable -= window.num_candidates;
   return window;
 }
 

@@ -25,6 +25,9 @@ struct LevelWindow {
   int num_eliminated = 0;
   // The number of nodes for which the level solves: the eliminated and the moved ones.
   int num_variable = 0;
+  // The number of held nodes that come next and have all of their edges, too: those that the next
+  // Level I may move.
+  int num_candidates = 0;
   DeformationGraph graph;
   DeformationState state;
 

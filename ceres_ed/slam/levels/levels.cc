@@ -156,13 +156,37 @@ LevelReport Levels::SolveLevelOne(const FrameObservations& observations,
     return solver_->SolveLevelOne(builder, config, steps, &window.state, summary);
   };
   std::vector<double> motion;
+  DeformationState before;
+  if (solver_->HasActiveSet()) before = window.state;
   LevelReport report = Solve(options, solve, window, map, &motion);
   report.point_relevant = point_relevant_.size();
   report.marginalized = window.num_eliminated;
   if (report.status == SolveStatus::kFailed) return report;
   if (camera) map->SetCamera(window.state.camera_from_map);
   pending_.NoteSolve(window, map->graph(), motion, /*one_step=*/Eliminates());
+  if (solver_->HasActiveSet()) LookAtFrontier(builder, window, before, &report);
   return report;
+}
+
+void Levels::LookAtFrontier(const ProblemBuilder& builder,
+                            const LevelWindow& window,
+                            const DeformationState& before,
+                            LevelReport* report) {
+  SolvedLevelOne level;
+  level.builder = &builder;
+  level.moved_hidden.assign(window.nodes.size(), 0);
+  for (int i = 0; i < window.num_variable; ++i) {
+    level.moved_hidden[i] = point_relevant_.Has(window.nodes[i]) ? 0 : 1;
+  }
+  level.candidates.assign(window.nodes.size(), 0);
+  std::fill_n(level.candidates.begin() + window.num_variable, window.num_candidates, 1);
+  level.before = &before;
+  level.after = &window.state;
+  level.energy = report->energy;
+  level.names = &window.nodes;
+  level.num_threads = options_.solver.num_threads;
+  solver_->active_set().Look(level);
+  report->held_share = solver_->active_set().held_share();
 }
 
 TermInputs Levels::LevelOneInputs(const FrameObservations& observations,

@@ -17,6 +17,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <unordered_map>
@@ -44,6 +45,9 @@ struct LevelReport {
   // The energy of the level's problem before and after the solve.
   double initial_energy = 0.0;
   double energy = 0.0;
+  // The energy that the held nodes would lose at once, as a share of `energy`; NaN if it was not
+  // measured (ActiveSetRule).
+  double held_share = std::numeric_limits<double>::quiet_NaN();
 };
 
 // Builds and solves the levels of one frame after another, and keeps data of the solvers between
@@ -55,7 +59,10 @@ class Levels {
                                                   const EnergyRegistry& registry);
 
   // Starts a new frame: the present positions of the nodes become those of the previous frame.
-  void BeginFrame() { previous_.clear(); }
+  void BeginFrame() {
+    previous_.clear();
+    solver_->active_set().BeginFrame();
+  }
 
   // Solves Level I (Eq. 14), which moves the camera, the PR nodes and their rings. If it fails,
   // nothing has moved. `priors` may be null; the nodes then keep their present prior.
@@ -112,10 +119,12 @@ class Levels {
   // the size of the last windows only.
   std::size_t HeapBytes() const {
     return windows_.HeapBytes() + pending_.HeapBytes() + point_relevant_.HeapBytes() +
-           moved_.HeapBytes() + front_.HeapBytes() + wanted_.HeapBytes();
+           moved_.HeapBytes() + front_.HeapBytes() + wanted_.HeapBytes() +
+           solver_->active_set().HeapBytes();
   }
 
-  // Discards the data that the solvers keep from frame to frame. These data save time, but the
+  // Discards the data that the solvers keep from frame to frame, except for the active set. They
+  // save time, but the
   // order of sums depends on them, and therefore the last digits of the results.
   void ForgetSolvers();
 
@@ -140,6 +149,11 @@ class Levels {
                             const WindowObservations& seen,
                             const LevelWindow& window,
                             const std::vector<Eigen::Vector3d>& previous) const;
+  // Shows a solved Level I to the active set.
+  void LookAtFrontier(const ProblemBuilder& builder,
+                      const LevelWindow& window,
+                      const DeformationState& before,
+                      LevelReport* report);
   // Solves Level II for some PI nodes while the others are held.
   LevelReport SolveHidden(const std::vector<int>& nodes,
                           NodePriorSource* priors,

@@ -28,6 +28,13 @@ class DecoupledSolver final : public Strategy {
     return decoupler_.Update(graph, point_relevant);
   }
 
+  // Returns the PI nodes that Level I moves by ActiveSetRule::kInformation. It changes with what it
+  // is shown (ActiveSet::Look()) and when a frame begins.
+  ActiveSet& active_set() { return decoupler_.active_set(); }
+  const ActiveSet& active_set() const { return decoupler_.active_set(); }
+  // Returns whether Level I asks the active set.
+  bool HasActiveSet() const { return has_active_set_; }
+
   // Minimise the problem of a config over `state`, like ConfigSolver. Each level keeps its own
   // structure.
   bool SolveLevelOne(const ProblemBuilder& builder,
@@ -55,6 +62,11 @@ class DecoupledSolver final : public Strategy {
   int num_choices() const { return decoupler_.num_choices(); }
 
  private:
+  bool SolveActiveSet(const ProblemBuilder& builder,
+                      const NodeSet& point_relevant,
+                      const SolverOptions& options,
+                      DeformationState* state,
+                      SolveSummary* summary);
   bool Follow(const ProblemBuilder& builder,
               const std::vector<char>& point_relevant,
               const SolverOptions& options,
@@ -63,6 +75,9 @@ class DecoupledSolver final : public Strategy {
               SolveSummary* summary);
 
   SolveMode mode_;
+  bool has_active_set_;
+  // The size of the last graph of Solve().
+  int num_nodes_ = 0;
   Decoupler decoupler_;
   ConfigSolver level_one_;
   ConfigSolver level_two_;

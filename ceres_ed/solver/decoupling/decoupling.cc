@@ -31,13 +31,15 @@ ProblemConfig Decoupling::LevelOne(int num_nodes, bool camera_variable) const {
 void Decoupling::Clear() {
   moved.Clear();
   eliminated.Clear();
+  candidates.Clear();
   boundary_edges = BoundaryEdges::kKeep;
 }
 
 const Decoupling& Decoupler::Choose(const DeformationGraph& graph, const NodeSet& point_relevant) {
   ++num_choices_;
   nodes_.Clear();
-  FindStrategy(options_.mode).choose({&options_, &graph, &point_relevant}, &nodes_);
+  const DecouplingInputs inputs = {&options_, &graph, &point_relevant, &active_set_};
+  FindStrategy(options_.mode).choose(inputs, &nodes_);
   return nodes_;
 }
 

@@ -6,6 +6,7 @@
 #include <ceres_ed/graph/node_set.h>
 #include <ceres_ed/problem/problem_config.h>
 #include <ceres_ed/problem/problem_types.h>
+#include <ceres_ed/solver/decoupling/active_set.h>
 #include <ceres_ed/solver/solver_types.h>
 
 namespace ceres_ed {
@@ -17,6 +18,9 @@ struct Decoupling {
   // The nodes that are eliminated from Level I (Eq. 20). They follow each of its steps by
   // back-substitution (Eq. 21).
   NodeSet eliminated;
+  // The held nodes near the moved ones that the next Level I may move, in ascending order; only
+  // with ActiveSetRule::kInformation.
+  NodeSet candidates;
   // How priors between moved and held nodes are treated in Level I.
   BoundaryEdges boundary_edges = BoundaryEdges::kKeep;
 
@@ -33,12 +37,14 @@ struct DecouplingInputs {
   const DeformationGraph* graph = nullptr;
   // The PR nodes, in ascending order.
   const NodeSet* point_relevant = nullptr;
+  const ActiveSet* active = nullptr;
 };
 
 // Chooses the nodes of one problem after another.
 class Decoupler {
  public:
-  explicit Decoupler(const StrategyOptions& options) : options_(options) {}
+  explicit Decoupler(const StrategyOptions& options)
+      : options_(options), active_set_(options.active_bound) {}
 
   // Chooses the nodes of a new problem. `point_relevant` must be in ascending order.
   const Decoupling& Choose(const DeformationGraph& graph, const NodeSet& point_relevant);
@@ -48,6 +54,10 @@ class Decoupler {
   // without need. The factor of the elimination can then be used again.
   const Decoupling& Update(const DeformationGraph& graph, const NodeSet& point_relevant);
 
+  // Returns the nodes that are moved by ActiveSetRule::kInformation.
+  ActiveSet& active_set() { return active_set_; }
+  const ActiveSet& active_set() const { return active_set_; }
+
   // Returns how often nodes were chosen again.
   int num_choices() const { return num_choices_; }
 
@@ -55,6 +65,7 @@ class Decoupler {
   bool StillServes(const NodeSet& point_relevant) const;
 
   StrategyOptions options_;
+  ActiveSet active_set_;
   Decoupling nodes_;
   int num_choices_ = 0;
 };
