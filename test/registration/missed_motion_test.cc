@@ -63,8 +63,7 @@ TEST(MissedMotion, LiesWithinASeenSurface) {
   const Eigen::Vector3d normal = Eigen::Vector3d(1, 2, 2) / 3.0;
   const Eigen::Matrix3d seen = missed.Covariance(1.0, normal);
   const Eigen::Vector3d along = normal.cross(Eigen::Vector3d::UnitX()).normalized();
-  EXPECT_NEAR(
-      normal.dot(seen * normal), MissedMotion::kAcross * along.dot(seen * along), 1e-12);
+  EXPECT_NEAR(normal.dot(seen * normal), MissedMotion::kAcross * along.dot(seen * along), 1e-12);
 }
 
 // Whatever the modes say, no more than all of the motion counts.

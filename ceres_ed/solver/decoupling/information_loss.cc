@@ -113,6 +113,7 @@ StatusOr<double> MeasureInformationLoss(const ProblemBuilder& builder,
   double sum = 0.0;
   const auto add = [&](double sign, bool with_observed, bool with_held) {
     std::vector<char> blocks;
+    blocks.reserve(kinds.size());
     for (const int kind : kinds) {
       blocks.push_back(kind == kMoved || (kind == kObserved && with_observed) ||
                        (kind == kHeld && with_held));
