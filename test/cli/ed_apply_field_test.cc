@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <test/cli/run_program.h>
 #include <test/graph/warp_examples.h>
+#include <test/io/io_test_util.h>
 
 namespace ceres_ed {
 namespace {
@@ -19,8 +20,10 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+// Tests run at once, so each process has a folder of its own.
 std::string TempPath(const std::string& name) {
-  return ::testing::TempDir() + "/ed_apply_field_" + name;
+  static const TemporaryDirectory folder;
+  return folder / name;
 }
 
 // A quarter turn about z that moves (x, y, z) to (4 - y, x - 1, z + 0.5).

@@ -14,6 +14,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <test/cli/run_program.h>
+#include <test/io/io_test_util.h>
 
 namespace ceres_ed {
 namespace {
@@ -21,7 +22,11 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string TempPath(const std::string& name) { return ::testing::TempDir() + "/ed_apply_" + name; }
+// Tests run at once, so each process has a folder of its own.
+std::string TempPath(const std::string& name) {
+  static const TemporaryDirectory folder;
+  return folder / name;
+}
 
 // Six nodes that all turn by 90 degrees about z and move by (1, 2, 3), so every point must too.
 std::string WriteTurn(const std::string& path) {

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <test/cli/run_program.h>
+#include <test/io/io_test_util.h>
 
 namespace ceres_ed {
 namespace {
@@ -17,7 +18,11 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-std::string TempPath(const std::string& name) { return ::testing::TempDir() + "/ed_eval_" + name; }
+// Tests run at once, so each process has a folder of its own.
+std::string TempPath(const std::string& name) {
+  static const TemporaryDirectory folder;
+  return folder / name;
+}
 
 // A square of side 2 in the plane z = `height`; its diagonal is sqrt(8).
 std::string WriteSquare(const std::string& name, double height) {
