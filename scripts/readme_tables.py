@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 """Copies columns of the tables in test/benchmark/README.md to the short tables of README.md.
 
+Rows without a truth, so without an error, stay in the long tables.
+
 It writes between the marks `<!-- readme_tables.py: NAME: begin -->` and `... end -->`. With --check it
 writes nothing, and exits with 1 if README.md differs.
 
@@ -43,7 +45,8 @@ def short_table(page, first_heading, columns):
     """Returns the lines of the columns that a short table has."""
     headings, rows = read_table(page, first_heading)
     chosen = [headings.index(heading) for heading in columns]
-    return table(list(columns.values()), [[row[i] for i in chosen] for row in rows])
+    short = [[row[i] for i in chosen] for row in rows]
+    return table(list(columns.values()), [row for row in short if "-" not in row])
 
 
 def main():
